@@ -1,0 +1,3 @@
+//! Riemap: discrete conformal maps of quad meshes, triangle meshes and digital surfaces.
+
+pub mod surface;
