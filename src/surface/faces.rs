@@ -64,6 +64,11 @@ impl Faces {
         self.iter().all(|p| p.len() == first).then_some(first)
     }
 
+    /// The same polygons with every vertex `v` called `new[v]`.
+    pub fn renumbered(&self, new: &[u32]) -> Faces {
+        Faces { offsets: self.offsets.clone(), corners: self.corners.iter().map(|&v| new[v as usize]).collect() }
+    }
+
     /// Reverses the order of the corners of face `f` behind its first one.
     pub fn flip(&mut self, f: usize) {
         let range = self.corner_range(f);

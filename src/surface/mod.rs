@@ -1,8 +1,17 @@
 //! What is mapped: positions and polygons, and all that is known of them before a formula is applied.
 
+mod defect;
+pub mod diagnosis;
+pub mod disc;
+pub mod edges;
 mod faces;
+pub mod orientation;
+pub mod topology;
+mod union_find;
+pub(crate) mod vector;
 
 pub use faces::Faces;
+pub(crate) use union_find::UnionFind;
 
 /// A polygon mesh as its source states it, before any judgement: indices are valid, nothing else is promised.
 #[derive(Clone, Debug, Default, PartialEq)]

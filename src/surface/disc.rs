@@ -1,0 +1,91 @@
+//! A surface that can be mapped to the plane in one piece.
+
+use super::diagnosis::{Diagnosis, Finding};
+use super::edges::next_in;
+use super::{Faces, Surface};
+
+/// One consistently oriented topological disc of triangles or of quads, vertices numbered without gaps.
+#[derive(Clone, Debug)]
+pub struct Disc {
+    /// Vertex positions (`nv × 3`), those in use only.
+    pub positions: Vec<[f64; 3]>,
+    /// The faces, in the order of the source, all counter-clockwise seen from the same side.
+    pub faces: Faces,
+    /// Unit normals per face (`nf × 3`), turned over with their faces, where the source gives them.
+    pub face_normals: Option<Vec<[f64; 3]>>,
+    /// The boundary loop, with the surface on its left, from the vertex of lowest index.
+    pub boundary: Vec<u32>,
+    /// For each vertex its index in the source.
+    pub source_vertex: Vec<u32>,
+}
+
+/// The surface is no disc, or too badly formed to be mapped: all that stands against it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", lines(.findings))]
+pub struct NotADisc {
+    /// The fatal findings of the diagnosis.
+    pub findings: Vec<Finding>,
+}
+
+fn lines(findings: &[Finding]) -> String {
+    let lines: Vec<String> = findings.iter().map(|f| format!("{f}: {}", f.advice())).collect();
+    lines.join("\n")
+}
+
+impl Disc {
+    /// The disc that `surface` is, with the orientation its diagnosis asks for.
+    ///
+    /// # Errors
+    /// All fatal findings of the diagnosis, where there are some.
+    pub fn new(surface: &Surface, diagnosis: &Diagnosis) -> Result<Self, NotADisc> {
+        let findings: Vec<Finding> = diagnosis.fatal().cloned().collect();
+        if !findings.is_empty() {
+            return Err(NotADisc { findings });
+        }
+        let topology = &diagnosis.topology;
+        let source_vertex: Vec<u32> =
+            (0..surface.positions.len() as u32).filter(|&v| topology.fans[v as usize] > 0).collect();
+        let mut compact = vec![u32::MAX; surface.positions.len()];
+        for (new, &old) in source_vertex.iter().enumerate() {
+            compact[old as usize] = new as u32;
+        }
+        let mut faces = surface.faces.renumbered(&compact);
+        let mut face_normals = surface.face_normals.clone();
+        let flipped = topology.orientation.flip.iter().enumerate().filter(|(_, flip)| **flip);
+        for (f, _) in flipped {
+            faces.flip(f);
+            if let Some(normals) = &mut face_normals {
+                normals[f] = super::vector::scale(-1.0, normals[f]);
+            }
+        }
+        let boundary = boundary(surface, diagnosis, &compact);
+        let positions = source_vertex.iter().map(|&v| surface.positions[v as usize]).collect();
+        Ok(Disc { positions, faces, face_normals, boundary, source_vertex })
+    }
+}
+
+/// The boundary loop in the direction of the oriented faces. A disc has one, and each of its vertices one edge ahead.
+fn boundary(surface: &Surface, diagnosis: &Diagnosis, compact: &[u32]) -> Vec<u32> {
+    let topology = &diagnosis.topology;
+    let vertex = surface.faces.corners();
+    let mut ahead = vec![u32::MAX; compact.len()];
+    let mut first = None;
+    for e in 0..topology.edges.len() {
+        let &[c] = topology.edges.corners(e) else { continue };
+        let f = topology.edges.face_of_corner[c as usize] as usize;
+        let (mut a, mut b) = (vertex[c as usize], vertex[next_in(&surface.faces, f, c as usize)]);
+        if topology.orientation.flip[f] {
+            std::mem::swap(&mut a, &mut b);
+        }
+        ahead[a as usize] = b;
+        // Edges come sorted by their smaller ends.
+        first.get_or_insert(topology.edges.ends[e][0]);
+    }
+    let mut boundary = Vec::new();
+    let mut next = first;
+    while let Some(v) = next {
+        boundary.push(compact[v as usize]);
+        next = Some(ahead[v as usize]).filter(|&w| Some(w) != first);
+    }
+    boundary
+}

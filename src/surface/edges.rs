@@ -1,0 +1,97 @@
+//! The undirected edges of a polygon mesh.
+
+use super::Faces;
+
+/// The undirected edges of a polygon mesh and, for each, the corners whose directed edge lies on it.
+///
+/// Built in linear time by bucketing the directed edges by their smaller vertex. Edges are ordered by
+/// (smaller end, larger end), the corners of an edge by their position.
+#[derive(Clone, Debug)]
+pub struct Edges {
+    /// End vertices of each edge, the smaller first (`ne × 2`). Equal ends: a face repeats a vertex.
+    pub ends: Vec<[u32; 2]>,
+    /// The edge on which each corner's directed edge lies (one per corner).
+    pub of_corner: Vec<u32>,
+    /// The face of each corner (one per corner).
+    pub face_of_corner: Vec<u32>,
+    offsets: Vec<u32>,
+    corners: Vec<u32>,
+}
+
+impl Edges {
+    /// The edges of `faces`, whose vertex indices are below `vertices`.
+    pub fn new(faces: &Faces, vertices: usize) -> Self {
+        let corner_vertex = faces.corners();
+        let total = corner_vertex.len();
+        let mut larger_end = vec![0u32; total];
+        let mut face_of_corner = vec![0u32; total];
+        let mut bucket = vec![0u32; vertices + 1];
+        for f in 0..faces.len() {
+            for c in faces.corner_range(f) {
+                let (a, b) = (corner_vertex[c], corner_vertex[next_in(faces, f, c)]);
+                larger_end[c] = a.max(b);
+                face_of_corner[c] = f as u32;
+                bucket[a.min(b) as usize + 1] += 1;
+            }
+        }
+        for v in 0..vertices {
+            bucket[v + 1] += bucket[v];
+        }
+        let mut corners = vec![0u32; total];
+        let mut cursor = bucket.clone();
+        for f in 0..faces.len() {
+            for c in faces.corner_range(f) {
+                let slot = &mut cursor[corner_vertex[c].min(corner_vertex[next_in(faces, f, c)]) as usize];
+                corners[*slot as usize] = c as u32;
+                *slot += 1;
+            }
+        }
+
+        let mut ends = Vec::with_capacity(total / 2 + 1);
+        let mut offsets = Vec::with_capacity(total / 2 + 2);
+        let mut of_corner = vec![0u32; total];
+        for v in 0..vertices {
+            let (first, last) = (bucket[v] as usize, bucket[v + 1] as usize);
+            corners[first..last].sort_unstable_by_key(|&c| (larger_end[c as usize], c));
+            for k in first..last {
+                let w = larger_end[corners[k] as usize];
+                if k == first || w != larger_end[corners[k - 1] as usize] {
+                    ends.push([v as u32, w]);
+                    offsets.push(k as u32);
+                }
+                of_corner[corners[k] as usize] = ends.len() as u32 - 1;
+            }
+        }
+        offsets.push(total as u32);
+        Edges { ends, of_corner, face_of_corner, offsets, corners }
+    }
+
+    /// Number of edges.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether there is no edge.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The corners whose directed edge lies on edge `e`: one on a boundary edge, two inside a manifold.
+    pub fn corners(&self, e: usize) -> &[u32] {
+        &self.corners[self.offsets[e] as usize..self.offsets[e + 1] as usize]
+    }
+
+    /// The corner on the other side of corner `c`'s edge, where exactly two faces meet.
+    pub fn opposite(&self, c: usize) -> Option<usize> {
+        match *self.corners(self.of_corner[c] as usize) {
+            [a, b] => Some(if a as usize == c { b as usize } else { a as usize }),
+            _ => None,
+        }
+    }
+}
+
+/// The corner behind `c` in face `f`.
+pub(crate) fn next_in(faces: &Faces, f: usize, c: usize) -> usize {
+    let range = faces.corner_range(f);
+    if c + 1 == range.end { range.start } else { c + 1 }
+}
