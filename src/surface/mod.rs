@@ -5,6 +5,7 @@ pub mod diagnosis;
 pub mod disc;
 pub mod edges;
 mod faces;
+pub mod generate;
 pub mod orientation;
 pub mod topology;
 mod union_find;

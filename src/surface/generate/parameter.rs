@@ -1,0 +1,84 @@
+use std::fmt;
+
+/// A parameter of a generated surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// What stands before the `=`.
+    pub name: &'static str,
+    /// One line.
+    pub about: &'static str,
+    /// Type, default and range.
+    pub values: Values,
+    /// `(name, values)`: has an effect only when the parameter `name`, declared earlier, has one of these values.
+    pub only_with: Option<(&'static str, &'static [&'static str])>,
+}
+
+/// Type, default and range of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Values {
+    /// min ≤ value ≤ max.
+    Whole {
+        /// Default.
+        default: u64,
+        /// Smallest value.
+        min: u64,
+        /// Largest value.
+        max: u64,
+    },
+    /// min ≤ value ≤ max.
+    Real {
+        /// Default.
+        default: f64,
+        /// Smallest value.
+        min: f64,
+        /// Largest value.
+        max: f64,
+    },
+    /// One of some words; the first is the default.
+    Choice(&'static [&'static str]),
+}
+
+impl Parameter {
+    /// A whole number.
+    pub const fn whole(name: &'static str, default: u64, min: u64, max: u64, about: &'static str) -> Self {
+        Parameter { name, about, values: Values::Whole { default, min, max }, only_with: None }
+    }
+
+    /// A real number.
+    pub const fn real(name: &'static str, default: f64, min: f64, max: f64, about: &'static str) -> Self {
+        Parameter { name, about, values: Values::Real { default, min, max }, only_with: None }
+    }
+
+    /// One of some words; the first is the default.
+    pub const fn choice(name: &'static str, words: &'static [&'static str], about: &'static str) -> Self {
+        Parameter { name, about, values: Values::Choice(words), only_with: None }
+    }
+
+    /// Restricts the parameter to some values of an earlier one.
+    pub const fn only_with(self, name: &'static str, values: &'static [&'static str]) -> Self {
+        Parameter { only_with: Some((name, values)), ..self }
+    }
+}
+
+impl Values {
+    /// The default, as it stands in a name.
+    pub fn default_text(&self) -> String {
+        match self {
+            Values::Whole { default, .. } => default.to_string(),
+            Values::Real { default, .. } => default.to_string(),
+            Values::Choice(words) => words.first().copied().unwrap_or_default().to_string(),
+        }
+    }
+}
+
+/// The allowed values.
+impl fmt::Display for Values {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Values::Whole { min, max: u64::MAX, .. } => write!(f, "{min} and above"),
+            Values::Whole { min, max, .. } => write!(f, "{min} to {max}"),
+            Values::Real { min, max, .. } => write!(f, "{min} to {max}"),
+            Values::Choice(words) => f.write_str(&words.join(", ")),
+        }
+    }
+}
