@@ -1,3 +1,4 @@
 //! Riemap: discrete conformal maps of quad meshes, triangle meshes and digital surfaces.
 
+pub mod io;
 pub mod surface;

@@ -1,0 +1,231 @@
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::{Staged, VertexText, can_be_written, stage};
+use crate::surface::Surface;
+
+/// Texture coordinates: the map.
+#[derive(Clone, Copy, Debug)]
+pub enum Uv<'a> {
+    /// One pair per vertex (`nv × 2`).
+    PerVertex(&'a [[f64; 2]]),
+    /// Pairs shared by corners, for maps of surfaces that were cut.
+    PerCorner {
+        /// The pairs.
+        coordinates: &'a [[f64; 2]],
+        /// For every corner, face after face, the index of its pair.
+        corners: &'a [u32],
+    },
+}
+
+/// Why a file could not be written. Nothing is left behind, and an existing file is as it was.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The operating system refused.
+    #[error("cannot write {}: {source}", path.display())]
+    Io {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The extension is that of no format that is written.
+    #[error("cannot write {}: unknown mesh format; known extensions: .obj, .ply", path.display())]
+    UnknownFormat {
+        /// The file asked for.
+        path: PathBuf,
+    },
+    /// Texture coordinates or vertex text do not belong to this surface.
+    #[error("cannot write {}: {found} {what} for {expected} of the surface", path.display())]
+    Mismatch {
+        /// The file asked for.
+        path: PathBuf,
+        /// `texture coordinates`, `corner indices`, `vertex lines`.
+        what: &'static str,
+        /// How many were given.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// A corner names a pair of coordinates that is not there.
+    #[error("cannot write {}: corner {corner} has the texture coordinate {index} of {count}", path.display())]
+    CornerOutOfRange {
+        /// The file asked for.
+        path: PathBuf,
+        /// Position in the flat list of corners.
+        corner: usize,
+        /// The index it has.
+        index: u32,
+        /// Number of texture coordinates.
+        count: usize,
+    },
+    /// NaN or an infinity.
+    #[error("cannot write {}: texture coordinate {index} (0-based) is ({}, {})", path.display(), value[0], value[1])]
+    NotFinite {
+        /// The file asked for.
+        path: PathBuf,
+        /// Index of the pair.
+        index: usize,
+        /// The pair.
+        value: [f64; 2],
+    },
+}
+
+/// Writes a surface with its texture coordinates, if any: `.obj` or (binary little-endian) `.ply`, as the extension says.
+///
+/// Vertices and faces keep their order and number of corners. In OBJ the vertices are the lines of `text` when given; every
+/// other number is the shortest that reads back as the same double. PLY has doubles.
+///
+/// # Errors
+///
+/// [`WriteError`]; nothing is written then.
+pub fn write(path: &Path, surface: &Surface, text: Option<&VertexText>, uv: Option<Uv>) -> Result<(), WriteError> {
+    stage_mesh(path, surface, text, uv)?.publish()
+}
+
+/// The same, not yet in its place.
+///
+/// # Errors
+///
+/// [`WriteError`].
+pub fn stage_mesh(
+    path: &Path,
+    surface: &Surface,
+    text: Option<&VertexText>,
+    uv: Option<Uv>,
+) -> Result<Staged, WriteError> {
+    let writer = writer(path)?;
+    check(path, surface, text, uv)?;
+    stage(path, |out| writer(out, surface, text, uv))
+}
+
+/// Whether a mesh can be written under this name, so that a long computation need not end in an error.
+///
+/// # Errors
+///
+/// [`WriteError::UnknownFormat`] where the extension is that of no format that is written, or as [`can_be_written`].
+pub fn writable(path: &Path) -> Result<(), WriteError> {
+    writer(path)?;
+    can_be_written(path)
+}
+
+fn writer(path: &Path) -> Result<Writer, WriteError> {
+    let is = |known: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known));
+    match () {
+        () if is("obj") => Ok(obj),
+        () if is("ply") => Ok(ply),
+        () => Err(WriteError::UnknownFormat { path: path.to_owned() }),
+    }
+}
+
+type Writer = fn(&mut dyn Write, &Surface, Option<&VertexText>, Option<Uv>) -> io::Result<()>;
+
+fn check(path: &Path, surface: &Surface, text: Option<&VertexText>, uv: Option<Uv>) -> Result<(), WriteError> {
+    let path = || path.to_owned();
+    let same = |what, found, expected| {
+        if found == expected { Ok(()) } else { Err(WriteError::Mismatch { path: path(), what, found, expected }) }
+    };
+    let vertices = surface.positions.len();
+    if let Some(text) = text {
+        same("vertex lines", text.len(), vertices)?;
+    }
+    let coordinates = match uv {
+        None => return Ok(()),
+        Some(Uv::PerVertex(coordinates)) => {
+            same("texture coordinates", coordinates.len(), vertices)?;
+            coordinates
+        }
+        Some(Uv::PerCorner { coordinates, corners }) => {
+            same("corner indices", corners.len(), surface.faces.corners().len())?;
+            let count = coordinates.len();
+            if let Some((corner, &index)) = corners.iter().enumerate().find(|&(_, &i)| i as usize >= count) {
+                return Err(WriteError::CornerOutOfRange { path: path(), corner, index, count });
+            }
+            coordinates
+        }
+    };
+    match coordinates.iter().enumerate().find(|(_, uv)| !(uv[0].is_finite() && uv[1].is_finite())) {
+        Some((index, &value)) => Err(WriteError::NotFinite { path: path(), index, value }),
+        None => Ok(()),
+    }
+}
+
+fn obj(out: &mut dyn Write, surface: &Surface, text: Option<&VertexText>, uv: Option<Uv>) -> io::Result<()> {
+    for (v, p) in surface.positions.iter().enumerate() {
+        match text.and_then(|t| t.line(v)) {
+            Some(line) => {
+                out.write_all(line)?;
+                out.write_all(b"\n")?;
+            }
+            None => writeln!(out, "v {:?} {:?} {:?}", p[0], p[1], p[2])?,
+        }
+    }
+    let (coordinates, texture): (&[[f64; 2]], Option<&[u32]>) = match uv {
+        None => (&[], None),
+        Some(Uv::PerVertex(coordinates)) => (coordinates, Some(surface.faces.corners())),
+        Some(Uv::PerCorner { coordinates, corners }) => (coordinates, Some(corners)),
+    };
+    for [u, v] in coordinates {
+        writeln!(out, "vt {u:?} {v:?}")?;
+    }
+    for (f, polygon) in surface.faces.iter().enumerate() {
+        out.write_all(b"f")?;
+        for (c, &vertex) in surface.faces.corner_range(f).zip(polygon) {
+            // indices count from 1; 64 bits because the last one may not fit 32
+            let vertex = u64::from(vertex) + 1;
+            match texture {
+                Some(texture) => write!(out, " {vertex}/{}", u64::from(texture[c]) + 1)?,
+                None => write!(out, " {vertex}")?,
+            }
+        }
+        out.write_all(b"\n")?;
+    }
+    Ok(())
+}
+
+fn ply(out: &mut dyn Write, surface: &Surface, _: Option<&VertexText>, uv: Option<Uv>) -> io::Result<()> {
+    let most = surface.faces.iter().map(<[u32]>::len).max().unwrap_or(0);
+    let count = |most: usize| if most <= 255 { "uchar" } else { "int" };
+    writeln!(out, "ply\nformat binary_little_endian 1.0\ncomment written by riemap")?;
+    writeln!(out, "element vertex {}", surface.positions.len())?;
+    writeln!(out, "property double x\nproperty double y\nproperty double z")?;
+    if let Some(Uv::PerVertex(_)) = uv {
+        writeln!(out, "property double s\nproperty double t")?;
+    }
+    writeln!(out, "element face {}", surface.faces.len())?;
+    writeln!(out, "property list {} uint vertex_indices", count(most))?;
+    if let Some(Uv::PerCorner { .. }) = uv {
+        writeln!(out, "property list {} double texcoord", count(2 * most))?;
+    }
+    writeln!(out, "end_header")?;
+    for (v, position) in surface.positions.iter().enumerate() {
+        numbers(out, position)?;
+        if let Some(Uv::PerVertex(coordinates)) = uv {
+            numbers(out, &coordinates[v])?;
+        }
+    }
+    for (f, polygon) in surface.faces.iter().enumerate() {
+        length(out, polygon.len(), most)?;
+        for vertex in polygon {
+            out.write_all(&vertex.to_le_bytes())?;
+        }
+        if let Some(Uv::PerCorner { coordinates, corners }) = uv {
+            length(out, 2 * polygon.len(), 2 * most)?;
+            for &i in &corners[surface.faces.corner_range(f)] {
+                numbers(out, &coordinates[i as usize])?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn numbers(out: &mut dyn Write, numbers: &[f64]) -> io::Result<()> {
+    numbers.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))
+}
+
+/// The length of a list whose type was chosen for lists up to `most`.
+fn length(out: &mut dyn Write, length: usize, most: usize) -> io::Result<()> {
+    if most <= 255 { out.write_all(&[length as u8]) } else { out.write_all(&(length as u32).to_le_bytes()) }
+}
