@@ -1,0 +1,108 @@
+use num_complex::Complex64;
+
+use super::dual::{BoundaryDual, DualPoint};
+use super::{QuadGraph, QuadGraphError, difference};
+use crate::surface::disc::Disc;
+use crate::surface::edges::{Edges, next_in};
+use crate::surface::vector::{cross, dot, norm};
+
+impl QuadGraph {
+    /// The quad graph of a triangle mesh: a dual vertex per face and per boundary edge; each edge vi → vj, with face f
+    /// on its left and g on its right, gives the quad (vi, c_g, vj, c_f) with the two triangles unfolded into a plane.
+    ///
+    /// Seen from the edge as 0 → 1, c_f = s + ih and (from the other end) c_g = s' + ih' give
+    ///
+    /// ```text
+    /// ρ = (c_f − c_g) / i = (h + h') − i (s + s' − 1)
+    /// ```
+    ///
+    /// On a boundary edge c_g is the dual vertex on it. Vertices: the mesh's, then one per face, then one per boundary
+    /// edge in the order of the boundary.
+    ///
+    /// # Errors
+    /// A triangle without area; a perpendicular that misses its boundary edge.
+    pub fn from_triangles(
+        disc: &Disc,
+        dual: &dyn DualPoint,
+        boundary_dual: BoundaryDual,
+    ) -> Result<Self, QuadGraphError> {
+        let (primal, faces, loop_length) = (disc.positions.len(), disc.faces.len(), disc.boundary.len());
+        let vertices = primal + faces + loop_length;
+        if vertices >= u32::MAX as usize {
+            return Err(QuadGraphError::TooLarge { vertices });
+        }
+        let placed = place_dual_points(disc, dual)?;
+        let edges = Edges::new(&disc.faces, primal);
+        let corner_vertex = disc.faces.corners();
+        let face_dual = |f: u32| primal as u32 + f;
+
+        let mut boundary_position = vec![u32::MAX; primal];
+        for (k, &v) in disc.boundary.iter().enumerate() {
+            boundary_position[v as usize] = k as u32;
+        }
+        let mut graph = QuadGraph {
+            vertices,
+            primal,
+            quads: Vec::with_capacity(edges.len()),
+            rho: Vec::with_capacity(edges.len()),
+            diagonal: Vec::with_capacity(edges.len()),
+            boundary: Vec::with_capacity(2 * loop_length),
+            boundary_length: vec![0.0; 2 * loop_length],
+        };
+        for (k, &v) in disc.boundary.iter().enumerate() {
+            graph.boundary.extend([v, (primal + faces + k) as u32]);
+        }
+        for e in 0..edges.len() {
+            let corners = edges.corners(e);
+            let c = corners[0] as usize;
+            let f = edges.face_of_corner[c];
+            let (vi, vj) = (corner_vertex[c], corner_vertex[next_in(&disc.faces, f as usize, c)]);
+            let length = norm(difference(&disc.positions, vi, vj));
+            let (s, h) = placed[c];
+            let (right, rho) = match corners {
+                &[_, d] => {
+                    let (s_right, h_right) = placed[d as usize];
+                    (face_dual(edges.face_of_corner[d as usize]), Complex64::new(h + h_right, 1.0 - s - s_right))
+                }
+                _ => {
+                    let foot = match boundary_dual {
+                        BoundaryDual::Midpoint => 0.5,
+                        BoundaryDual::Foot => s,
+                    };
+                    if !(foot > 0.0 && foot < 1.0) {
+                        let edge = [vi, vj].map(|v| disc.source_vertex[v as usize]);
+                        return Err(QuadGraphError::FootOutsideEdge { face: f as usize, edge });
+                    }
+                    let k = boundary_position[vi as usize] as usize;
+                    graph.boundary_length[2 * k] = foot * length;
+                    graph.boundary_length[2 * k + 1] = (1.0 - foot) * length;
+                    ((primal + faces + k) as u32, Complex64::new(h, foot - s))
+                }
+            };
+            graph.quads.push([vi, right, vj, face_dual(f)]);
+            graph.rho.push(rho);
+            graph.diagonal.push(length);
+        }
+        Ok(graph)
+    }
+}
+
+/// The dual point of each corner's face, seen from the corner's edge: (s, h), in units of the edge.
+pub(super) fn place_dual_points(disc: &Disc, dual: &dyn DualPoint) -> Result<Vec<(f64, f64)>, QuadGraphError> {
+    let mut placed = Vec::with_capacity(disc.faces.corners().len());
+    for (face, polygon) in disc.faces.iter().enumerate() {
+        let &[a, b, c] = polygon else { return Err(QuadGraphError::Corners { corners: polygon.len() }) };
+        for (vi, vj, vk) in [(a, b, c), (b, c, a), (c, a, b)] {
+            let edge = difference(&disc.positions, vi, vj);
+            let third = difference(&disc.positions, vi, vk);
+            let length_squared = dot(edge, edge);
+            let (s, h) = dual.place(dot(edge, third) / length_squared, norm(cross(edge, third)) / length_squared);
+            if !(s.is_finite() && h.is_finite() && length_squared > 0.0) {
+                let vertices = [a, b, c].map(|v| disc.source_vertex[v as usize]);
+                return Err(QuadGraphError::DegenerateTriangle { face, vertices });
+            }
+            placed.push((s, h));
+        }
+    }
+    Ok(placed)
+}

@@ -1,0 +1,91 @@
+//! Rest lengths and areas, which the metric energies compare a map with.
+
+use super::dual::DualPoint;
+use super::{QuadGraph, QuadGraphError, difference};
+use crate::surface::disc::Disc;
+use crate::surface::edges::Edges;
+use crate::surface::vector::{cross, norm};
+
+/// Lengths and areas at rest, in the unit of the positions.
+///
+/// The edges are those of the quad graph: on a triangle mesh from each vertex to the dual points around it, measured
+/// within the face, and the halves of the boundary edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestMetric {
+    /// The edges of the quad graph (`ne × 2`).
+    pub edges: Vec<[u32; 2]>,
+    /// Their lengths (`ne`).
+    pub length: Vec<f64>,
+    /// Half of the adjacent quads' areas, for each edge (`ne`).
+    pub area: Vec<f64>,
+    /// ½ (|(v3−v0)×(v2−v0)| + |(v2−v0)×(v1−v0)|) of each quad (`nf`): its area folded along d02.
+    pub folded_area: Vec<f64>,
+}
+
+impl RestMetric {
+    /// The metric of a quad mesh: edge lengths in R³.
+    pub fn of_quads(disc: &Disc, graph: &QuadGraph) -> Self {
+        let edges = Edges::new(&disc.faces, disc.positions.len());
+        let area = |e: usize| {
+            let quads = edges.corners(e).iter().map(|&c| edges.face_of_corner[c as usize] as usize);
+            quads.map(|q| 0.5 * graph.area(q)).sum()
+        };
+        let folded = graph.quads.iter().map(|&[v0, v1, v2, v3]| {
+            let [d1, d2, d3] = [v1, v2, v3].map(|v| difference(&disc.positions, v0, v));
+            0.5 * (norm(cross(d3, d2)) + norm(cross(d2, d1)))
+        });
+        RestMetric {
+            length: edges.ends.iter().map(|&[a, b]| norm(difference(&disc.positions, a, b))).collect(),
+            area: (0..edges.len()).map(area).collect(),
+            folded_area: folded.collect(),
+            edges: edges.ends,
+        }
+    }
+
+    /// The metric of a triangle mesh's quad graph, made with the same dual points.
+    ///
+    /// # Errors
+    /// Those of [`QuadGraph::from_triangles`].
+    pub fn of_triangles(disc: &Disc, graph: &QuadGraph, dual: &dyn DualPoint) -> Result<Self, QuadGraphError> {
+        let placed = super::from_triangles::place_dual_points(disc, dual)?;
+        let edges = Edges::new(&disc.faces, disc.positions.len());
+        let vertex = disc.faces.corners();
+        let corners = vertex.len();
+        let mut metric = RestMetric {
+            edges: Vec::with_capacity(corners + graph.boundary.len()),
+            length: Vec::with_capacity(corners + graph.boundary.len()),
+            area: Vec::with_capacity(corners + graph.boundary.len()),
+            folded_area: vec![0.0; graph.quads.len()],
+        };
+        for f in 0..disc.faces.len() {
+            let range = disc.faces.corner_range(f);
+            for c in range.clone() {
+                // The edge from the vertex at c to the face's dual point lies between the quads of the two mesh edges
+                // that meet there.
+                let before = if c == range.start { range.end - 1 } else { c - 1 };
+                let quads = [c, before].map(|c| edges.of_corner[c] as usize);
+                let length = graph.diagonal[quads[0]];
+                let (s, h) = placed[c];
+                metric.edges.push([vertex[c], (disc.positions.len() + f) as u32]);
+                metric.length.push(length * s.hypot(h));
+                metric.area.push(0.5 * (graph.area(quads[0]) + graph.area(quads[1])));
+                metric.folded_area[quads[0]] += 0.5 * h.abs() * length * length;
+            }
+        }
+        let n = graph.boundary.len();
+        let mut quad_of_boundary = vec![0; disc.positions.len()];
+        for e in 0..edges.len() {
+            if let &[c] = edges.corners(e) {
+                quad_of_boundary[vertex[c as usize] as usize] = e;
+            }
+        }
+        for k in 0..n {
+            // Mesh vertices and dual vertices alternate; both halves belong to the quad of the mesh edge.
+            let mesh_vertex = graph.boundary[k - k % 2];
+            metric.edges.push([graph.boundary[k], graph.boundary[(k + 1) % n]]);
+            metric.length.push(graph.boundary_length[k]);
+            metric.area.push(0.5 * graph.area(quad_of_boundary[mesh_vertex as usize]));
+        }
+        Ok(metric)
+    }
+}
