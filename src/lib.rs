@@ -1,5 +1,7 @@
 //! Riemap: discrete conformal maps of quad meshes, triangle meshes and digital surfaces.
 
+pub mod interop;
 pub mod io;
 pub mod quad_graph;
+pub mod sparse;
 pub mod surface;

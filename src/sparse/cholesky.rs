@@ -1,0 +1,103 @@
+//! faer's sparse Cholesky on lower triangles with 32-bit indices. Symbolic and numeric factorisation are separate, so
+//! that a pattern is analysed once.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltError;
+use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, factorize_symbolic_cholesky};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::traits::ComplexField;
+use faer::{Conj, MatMut, Par, Side};
+
+use super::Columns;
+
+/// No factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Breakdown {
+    /// A pivot is not positive.
+    #[error("the matrix is not positive definite to rounding")]
+    NotPositiveDefinite,
+    /// Out of memory or of indices.
+    #[error("the factor does not fit into memory or its indices")]
+    TooLarge,
+}
+
+/// The elimination tree and fill of a pattern, in an AMD ordering.
+pub struct Analysis<'a> {
+    columns: &'a Columns,
+    symbolic: SymbolicCholesky<u32>,
+}
+
+/// A numeric factor L with `P M Pᵀ = L Lᴴ`.
+pub struct Cholesky<'b, T> {
+    symbolic: &'b SymbolicCholesky<u32>,
+    values: Vec<T>,
+}
+
+impl<'a> Analysis<'a> {
+    /// Analyses a pattern.
+    ///
+    /// # Errors
+    /// [`Breakdown::TooLarge`].
+    pub fn new(columns: &'a Columns) -> Result<Self, Breakdown> {
+        let symbolic = factorize_symbolic_cholesky(view(columns), Side::Lower, Default::default(), Default::default())
+            .map_err(|_| Breakdown::TooLarge)?;
+        Ok(Analysis { columns, symbolic })
+    }
+
+    /// Factorises the matrix with these values on the pattern. The memory of `spare`, an earlier factor, is used again.
+    ///
+    /// # Errors
+    /// A pivot that is not positive; lack of memory.
+    pub fn factorise<T: ComplexField>(
+        &self,
+        values: &[T],
+        spare: Option<Cholesky<'_, T>>,
+    ) -> Result<Cholesky<'_, T>, Breakdown> {
+        let mut factor = spare.map(|spare| spare.values).unwrap_or_default();
+        factor.clear();
+        factor.try_reserve_exact(self.symbolic.len_val()).map_err(|_| Breakdown::TooLarge)?;
+        factor.resize(self.symbolic.len_val(), faer::traits::math_utils::zero());
+        let scratch = self.symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Breakdown::TooLarge)?;
+        let factorised = self.symbolic.factorize_numeric_llt(
+            &mut factor,
+            SparseColMatRef::new(view(self.columns), values),
+            Side::Lower,
+            Default::default(),
+            Par::Seq,
+            MemStack::new(&mut memory),
+            Default::default(),
+        );
+        match factorised {
+            Ok(_) => Ok(Cholesky { symbolic: &self.symbolic, values: factor }),
+            Err(LltError::NonPositivePivot { .. }) => Err(Breakdown::NotPositiveDefinite),
+        }
+    }
+
+    /// Number of values of a factor.
+    pub fn factor_len(&self) -> usize {
+        self.symbolic.len_val()
+    }
+}
+
+impl<T: ComplexField> Cholesky<'_, T> {
+    /// Overwrites the columns of `right` (each as long as the matrix, one behind the other) with the solutions.
+    pub fn solve_in_place(&self, right: &mut [T]) {
+        let size = self.symbolic.nrows();
+        if size == 0 {
+            return;
+        }
+        let columns = right.len() / size;
+        let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<T>(columns, Par::Seq));
+        LltRef::new(self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(right, size, columns),
+            Par::Seq,
+            MemStack::new(&mut memory),
+        );
+    }
+}
+
+fn view(columns: &Columns) -> SymbolicSparseColMatRef<'_, u32> {
+    SymbolicSparseColMatRef::new_checked(columns.size(), columns.size(), &columns.offsets, None, &columns.rows)
+}
