@@ -1,0 +1,69 @@
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use super::conformal::Weight;
+use super::{Block, LocalMap, Polynomial, Rest, SquareSum};
+use crate::sparse::Stencils;
+
+/// C, the circle energy: `C = Σ w (|z|² − 1)²` over the boundary vertices that are not held; w = 1, or 2π ℓ/P with ℓ
+/// half the length of the adjacent boundary edges, P the perimeter.
+pub struct Circle {
+    vertices: Stencils,
+    root_weight: Vec<f64>,
+}
+
+impl Circle {
+    /// C of the boundary of the graph.
+    pub fn new(rest: Rest) -> Self {
+        let graph = rest.graph;
+        let n = graph.boundary.len();
+        let perimeter = graph.perimeter();
+        let free = || (0..n).filter(|&k| !rest.held[graph.boundary[k] as usize]);
+        let weight = |k: usize| match rest.weight {
+            Weight::Unit => 1.0,
+            Weight::Integral => {
+                let adjacent = graph.boundary_length[k] + graph.boundary_length[(k + n - 1) % n];
+                TAU * 0.5 * adjacent / perimeter
+            }
+        };
+        Circle {
+            vertices: Stencils::new(&free().map(|k| [graph.boundary[k]]).collect::<Vec<_>>()),
+            root_weight: free().map(|k| weight(k).sqrt()).collect(),
+        }
+    }
+}
+
+impl SquareSum for Circle {
+    fn name(&self) -> &'static str {
+        "C"
+    }
+
+    fn stencils(&self) -> &Stencils {
+        &self.vertices
+    }
+
+    fn residuals(&self, e: usize, z: &LocalMap) -> [f64; 2] {
+        [self.root_weight[e] * (z[0].norm_sqr() - 1.0), 0.0]
+    }
+
+    fn jacobian(&self, e: usize, z: &LocalMap) -> [[f64; 8]; 2] {
+        let g = 2.0 * self.root_weight[e] * z[0];
+        [[g.re, g.im, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 8]]
+    }
+
+    fn curvature(&self, e: usize, z: &LocalMap) -> Option<Block> {
+        let s = self.root_weight[e];
+        let mut block = [[0.0; 8]; 8];
+        for (i, row) in block.iter_mut().enumerate().take(2) {
+            row[i] = 2.0 * s * s * (z[0].norm_sqr() - 1.0);
+        }
+        Some(block)
+    }
+
+    fn residuals_along(&self, e: usize, z: &LocalMap, d: &LocalMap) -> [Polynomial; 2] {
+        let dot = |a: Complex64, b: Complex64| (a.conj() * b).re;
+        let r = Polynomial::quadratic(z[0].norm_sqr() - 1.0, 2.0 * dot(z[0], d[0]), d[0].norm_sqr());
+        [r.scaled(self.root_weight[e]), Polynomial::ZERO]
+    }
+}

@@ -1,0 +1,140 @@
+//! The energies of a map, `E = α H + β C + δ A + γ L + γ' L'`. A new one is one file and one row of [`ENERGIES`].
+//!
+//! Most are sums of squares of residuals, each a polynomial of a few vertices: they implement [`SquareSum`], and have
+//! value, gradient, both Hessians and the exact polynomial along a line from it.
+
+mod authalic;
+mod circle;
+pub mod conformal;
+mod expression;
+mod metric;
+mod order;
+mod polynomial;
+mod square_sum;
+
+pub use authalic::Authalic;
+pub use circle::Circle;
+pub use conformal::Conformal;
+pub use expression::{Expression, ExpressionError, Term};
+pub use metric::Metric;
+pub use order::Order;
+pub use polynomial::Polynomial;
+pub use square_sum::{LocalMap, SquareSum, jacobian};
+
+use num_complex::Complex64;
+
+use crate::quad_graph::QuadGraph;
+use crate::quad_graph::metric::RestMetric;
+use crate::sparse::Stencils;
+use conformal::{NonPositiveRho, Weight};
+
+/// Second derivatives of a piece with respect to (Re z, Im z) of its vertices, one behind the other; rows and columns
+/// past twice its number of vertices are 0.
+pub type Block = [[f64; 8]; 8];
+
+/// Which second derivatives are meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Curvature {
+    /// `2 Jᵀ J`: positive semi-definite, right where the residuals vanish.
+    GaussNewton,
+    /// All of them.
+    Exact,
+}
+
+/// A function of a map z (`nv` complex values) that is a sum over pieces of at most four vertices.
+pub trait Energy: Sync {
+    /// Its name in expressions: H, C, A, L, Lb.
+    fn name(&self) -> &'static str;
+
+    /// E(z); +∞ where z is not admitted.
+    fn value(&self, z: &[Complex64]) -> f64;
+
+    /// Adds `t (∂E/∂x + i ∂E/∂y)` at z to `gradient` (`nv`).
+    fn add_gradient(&self, t: f64, z: &[Complex64], gradient: &mut [Complex64]);
+
+    /// Adds `t Σ_k 2 r_k″ ∇r_k` at z to `gradient`, r″ the second derivatives of the residuals along d: what bends the
+    /// path of steps that keep the residuals small. Nothing where there are no residuals.
+    fn add_bending(&self, t: f64, z: &[Complex64], d: &[Complex64], gradient: &mut [Complex64]);
+
+    /// The vertices of each piece.
+    fn stencils(&self) -> Stencils;
+
+    /// Calls `add(piece, block)` with the second derivatives of every piece at z.
+    fn hessian(&self, z: &[Complex64], curvature: Curvature, add: &mut dyn FnMut(usize, &Block));
+
+    /// Number of squares it is a sum of; 0 where it is none.
+    fn residual_count(&self) -> usize;
+
+    /// Whether the second derivatives are the same everywhere.
+    fn is_quadratic(&self) -> bool {
+        false
+    }
+
+    /// The coefficients of `t ↦ E(z + t d)`, where that is a polynomial.
+    fn along(&self, z: &[Complex64], d: &[Complex64]) -> Option<Polynomial>;
+}
+
+/// What an energy is made from.
+#[derive(Clone, Copy)]
+pub struct Rest<'a> {
+    /// Quads and ρ.
+    pub graph: &'a QuadGraph,
+    /// Rest lengths and areas.
+    pub metric: &'a RestMetric,
+    /// How the pieces are weighted.
+    pub weight: Weight,
+    /// `held[v]`: the vertex does not move (`nv`).
+    pub held: &'a [bool],
+}
+
+/// An energy by name.
+pub struct Row {
+    /// Its name in expressions.
+    pub name: &'static str,
+    /// One line for `riemap list`.
+    pub about: &'static str,
+    /// Whether it sees lengths or areas, and so fixes the scale of the map.
+    pub metric: bool,
+    /// Makes it.
+    pub make: fn(Rest) -> Result<Box<dyn Energy>, NonPositiveRho>,
+}
+
+/// All energies.
+pub static ENERGIES: &[Row] = &[
+    Row {
+        name: "H",
+        about: "conformal: Σ w |z3 − z1 − iρ(z2 − z0)|²",
+        metric: false,
+        make: |rest| Ok(Box::new(Conformal::new(rest)?)),
+    },
+    Row {
+        name: "C",
+        about: "circle: Σ over free boundary vertices (|z|² − 1)²",
+        metric: false,
+        make: |rest| Ok(Box::new(Circle::new(rest))),
+    },
+    Row {
+        name: "A",
+        about: "authalic: Σ over quads (area² − rest area²)²",
+        metric: true,
+        make: |rest| Ok(Box::new(Authalic::new(rest)?)),
+    },
+    Row {
+        name: "L",
+        about: "metric: Σ over edges of the quad graph (|zi − zj|² − |vi − vj|²)²",
+        metric: true,
+        make: |rest| Ok(Box::new(Metric::all_edges(rest)?)),
+    },
+    Row {
+        name: "Lb",
+        about: "L': as L, over the boundary edges",
+        metric: true,
+        make: |rest| Ok(Box::new(Metric::boundary_edges(rest))),
+    },
+];
+
+/// The row of the energy of that name.
+pub fn energy(name: &str) -> Option<&'static Row> {
+    ENERGIES.iter().find(|row| row.name == name)
+}
