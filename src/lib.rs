@@ -1,8 +1,11 @@
 //! Riemap: discrete conformal maps of quad meshes, triangle meshes and digital surfaces.
 
+pub mod constraint;
 pub mod energy;
 pub mod interop;
 pub mod io;
+pub mod objective;
+pub mod problem;
 pub mod quad_graph;
 pub mod sparse;
 pub mod surface;

@@ -1,0 +1,195 @@
+//! The nonlinear problem: a weighted sum of energies over the unknowns that the constraints leave.
+
+use num_complex::Complex64;
+
+use crate::constraint::Freedoms;
+use crate::energy::conformal::Dirichlet;
+use crate::energy::{Block, Curvature, Energy, Polynomial};
+use crate::sparse::{Columns, Pattern, Stencils, pairs_of};
+
+/// `E(y) = Σ coefficient × energy(Z y + x0)`: all that a backend may know.
+pub struct Objective {
+    /// The energies with their coefficients.
+    pub terms: Vec<(f64, Box<dyn Energy>)>,
+    /// The unknowns.
+    pub freedoms: Freedoms,
+    /// What the size of a step is measured by.
+    pub norm: Dirichlet,
+}
+
+impl Objective {
+    /// E(y); +∞ where y is not admitted.
+    pub fn value(&self, y: &[f64]) -> f64 {
+        let z = self.freedoms.expand(y);
+        self.terms.iter().map(|(t, energy)| t * energy.value(&z)).sum()
+    }
+
+    /// The energies without their coefficients.
+    pub fn values(&self, y: &[f64]) -> Vec<(&'static str, f64)> {
+        let z = self.freedoms.expand(y);
+        self.terms.iter().map(|(_, energy)| (energy.name(), energy.value(&z))).collect()
+    }
+
+    /// Whether there are clearly more squares than unknowns, as with A or L beside H: the minimum is then not 0 and there
+    /// are others, folded ones. H + C and H + L' have about as many as unknowns.
+    pub fn is_overdetermined(&self) -> bool {
+        let squares: usize = self.terms.iter().map(|(_, energy)| energy.residual_count()).sum();
+        4 * squares > 5 * self.freedoms.unknowns()
+    }
+
+    /// ∇E(y) (`m`).
+    pub fn gradient(&self, y: &[f64]) -> Vec<f64> {
+        let z = self.freedoms.expand(y);
+        let mut g = vec![Complex64::ZERO; z.len()];
+        for (t, energy) in &self.terms {
+            energy.add_gradient(*t, &z, &mut g);
+        }
+        self.freedoms.restrict_gradient(&g)
+    }
+
+    /// `Zᵀ Σ 2 r″ ∇r` with r″ the second derivatives of the residuals along p: the bending of the energy's valleys.
+    pub fn bending(&self, y: &[f64], p: &[f64]) -> Vec<f64> {
+        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
+        let mut g = vec![Complex64::ZERO; z.len()];
+        for (t, energy) in &self.terms {
+            energy.add_bending(*t, &z, &d, &mut g);
+        }
+        self.freedoms.restrict_gradient(&g)
+    }
+
+    /// The coefficients of `t ↦ E(y + t p)`, where that is a polynomial.
+    pub fn along(&self, y: &[f64], p: &[f64]) -> Option<Polynomial> {
+        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
+        let mut sum = Polynomial::ZERO;
+        for (t, energy) in &self.terms {
+            sum.add_scaled(*t, &energy.along(&z, &d)?);
+        }
+        Some(sum)
+    }
+}
+
+/// Assembles Hessians of an objective on a pattern that is made once; the part that never changes is assembled once.
+pub struct HessianAssembly<'a> {
+    objective: &'a Objective,
+    stencils: Vec<Stencils>,
+    pattern: Pattern,
+    /// For each entry of the pattern over vertices, how many rows stand before it in its column of the real matrix.
+    rows_before: Vec<u32>,
+    columns: Columns,
+    constant: Vec<f64>,
+}
+
+impl<'a> HessianAssembly<'a> {
+    /// Makes the pattern: vertices of one piece are coupled, with as many rows and columns each as it has unknowns.
+    pub fn new(objective: &'a Objective) -> Self {
+        let freedoms = &objective.freedoms;
+        let vertices = freedoms.offset.len() - 1;
+        let mut unknown = vec![Pattern::NONE; vertices];
+        let moving: Vec<u32> = (0..vertices as u32).filter(|&v| freedoms.width(v as usize) > 0).collect();
+        for (k, &v) in moving.iter().enumerate() {
+            unknown[v as usize] = k as u32;
+        }
+        let mut stencils: Vec<Stencils> = objective.terms.iter().map(|(_, energy)| energy.stencils()).collect();
+        stencils.push(objective.norm.stencils().clone());
+        let pattern = Pattern::new(&stencils.iter().collect::<Vec<_>>(), &unknown, moving.len());
+
+        let mut rows_before = vec![0; pattern.columns.rows.len()];
+        let mut columns = Columns { offsets: vec![0], rows: Vec::with_capacity(4 * pattern.columns.rows.len()) };
+        for (k, &v) in moving.iter().enumerate() {
+            let mut before = 0;
+            for entry in pattern.columns.entries(k) {
+                rows_before[entry] = before;
+                before += freedoms.width(moving[pattern.columns.rows[entry] as usize] as usize) as u32;
+            }
+            for component in 0..freedoms.width(v as usize) {
+                for entry in pattern.columns.entries(k) {
+                    let row = moving[pattern.columns.rows[entry] as usize] as usize;
+                    let first = freedoms.offset[row] as usize + if row == v as usize { component } else { 0 };
+                    columns.rows.extend(first as u32..freedoms.offset[row + 1]);
+                }
+                columns.offsets.push(columns.rows.len() as u32);
+            }
+        }
+        let mut assembly = HessianAssembly { objective, stencils, pattern, rows_before, columns, constant: Vec::new() };
+        let mut constant = vec![0.0; assembly.columns.rows.len()];
+        let origin = vec![Complex64::ZERO; vertices];
+        for (list, (t, energy)) in objective.terms.iter().enumerate().filter(|(_, (_, e))| e.is_quadratic()) {
+            assembly.add(list, *t, energy.as_ref(), &origin, Curvature::GaussNewton, &mut constant);
+        }
+        assembly.constant = constant;
+        assembly
+    }
+
+    /// The pattern of the lower triangle.
+    pub fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    /// The values of ∇²E(y) on the pattern.
+    pub fn values(&self, y: &[f64], curvature: Curvature) -> Vec<f64> {
+        let mut values = self.constant.clone();
+        let z = self.objective.freedoms.expand(y);
+        for (list, (t, energy)) in self.objective.terms.iter().enumerate().filter(|(_, (_, e))| !e.is_quadratic()) {
+            self.add(list, *t, energy.as_ref(), &z, curvature, &mut values);
+        }
+        values
+    }
+
+    /// The values on the pattern of the matrix that measures steps, [`Objective::norm`].
+    pub fn norm_values(&self) -> Vec<f64> {
+        let list = self.stencils.len() - 1;
+        let mut values = vec![0.0; self.columns.rows.len()];
+        for e in 0..self.stencils[list].len() {
+            self.add_block(list, e, 1.0, &self.objective.norm.block(e), &mut values);
+        }
+        values
+    }
+
+    /// Adds t × the Hessian of one energy.
+    fn add(&self, list: usize, t: f64, energy: &dyn Energy, z: &[Complex64], curvature: Curvature, values: &mut [f64]) {
+        energy.hessian(z, curvature, &mut |e, block| self.add_block(list, e, t, block, values));
+    }
+
+    /// Adds t × the block of piece e of a list.
+    fn add_block(&self, list: usize, e: usize, t: f64, block: &Block, values: &mut [f64]) {
+        let freedoms = &self.objective.freedoms;
+        let stencils = &self.stencils[list];
+        let stencil = stencils.get(e);
+        for (&slot, (i, j)) in self.pattern.slots(list, e, stencils.arity).iter().zip(pairs_of(stencils.arity)) {
+            if slot == Pattern::NONE {
+                continue;
+            }
+            // The entry is that of the later vertex's rows in the earlier one's columns.
+            let (i, j) = if stencil[i] >= stencil[j] { (i, j) } else { (j, i) };
+            let (row, column) = (stencil[i], stencil[j]);
+            let before = self.rows_before[slot as usize] as usize;
+            let part = self.local_block(block, (i, row), (j, column));
+            let first_column = freedoms.offset[column as usize] as usize;
+            for b in 0..freedoms.width(column as usize) {
+                let start = self.columns.offsets[first_column + b] as usize + before;
+                let from = if row == column { b } else { 0 };
+                for a in from..freedoms.width(row as usize) {
+                    values[start + a - b] += t * part[a][b];
+                }
+            }
+        }
+    }
+
+    /// The 2 × 2 part of a block for two of its vertices, projected on the direction of those on lines.
+    fn local_block(&self, block: &Block, (i, row): (usize, u32), (j, column): (usize, u32)) -> [[f64; 2]; 2] {
+        let freedoms = &self.objective.freedoms;
+        let mut part =
+            [[block[2 * i][2 * j], block[2 * i][2 * j + 1]], [block[2 * i + 1][2 * j], block[2 * i + 1][2 * j + 1]]];
+        if freedoms.width(row as usize) == 1 {
+            let d = freedoms.direction(row);
+            part[0] = [d.re * part[0][0] + d.im * part[1][0], d.re * part[0][1] + d.im * part[1][1]];
+        }
+        if freedoms.width(column as usize) == 1 {
+            let d = freedoms.direction(column);
+            for row in &mut part {
+                row[0] = d.re * row[0] + d.im * row[1];
+            }
+        }
+        part
+    }
+}

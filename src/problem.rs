@@ -1,0 +1,110 @@
+//! The linear problem: system (2), weights, constraints.
+
+use nalgebra_sparse::{CooMatrix, CscMatrix};
+use num_complex::Complex64;
+
+use crate::constraint::{ConstraintError, Elimination, Fixed};
+use crate::energy::conformal::{self, NonPositiveRho, Weight};
+use crate::quad_graph::QuadGraph;
+
+/// Minimise H over the maps that hold some vertices; H = 0, so (2) itself, where there are just enough of them.
+#[derive(Clone, Debug)]
+pub struct LinearProblem<'a> {
+    /// Quads and ρ.
+    pub graph: &'a QuadGraph,
+    /// How the quads are weighted in H.
+    pub weight: Weight,
+    /// z = Z y + z0.
+    pub elimination: Elimination,
+}
+
+impl<'a> LinearProblem<'a> {
+    /// The problem with the vertices in `fixed` held.
+    ///
+    /// # Errors
+    /// Constraints that leave freedoms, or that name vertices that do not exist.
+    pub fn new(graph: &'a QuadGraph, weight: Weight, fixed: &Fixed) -> Result<Self, ConstraintError> {
+        fixed.determine(graph)?;
+        Ok(LinearProblem { graph, weight, elimination: Elimination::new(graph.vertices, fixed) })
+    }
+
+    /// Whether (2) has as many equations as unknowns, so that its solution has H = 0.
+    pub fn is_square(&self) -> bool {
+        self.graph.quads.len() == self.elimination.unknowns()
+    }
+
+    /// Whether every boundary vertex is held. Then K, which lives on the boundary alone, drops out, and with integral
+    /// weights the normal equations are real.
+    pub fn holds_whole_boundary(&self) -> bool {
+        self.graph.boundary.iter().all(|&v| !self.elimination.is_free(v))
+    }
+
+    /// The weight of every quad. Where (2) is square its solution is the minimum under any positive weights; then unit
+    /// weights stand in for integral ones that are undefined.
+    ///
+    /// # Errors
+    /// Integral weights where some Re ρ ≤ 0 and (2) is not square.
+    pub fn weights(&self) -> Result<Vec<f64>, NonPositiveRho> {
+        match conformal::weights(self.graph, self.weight) {
+            Err(_) if self.is_square() => conformal::weights(self.graph, Weight::Unit),
+            weights => weights,
+        }
+    }
+
+    /// System (2) on the free unknowns: `A Z y = −A z0`, the matrix (`nf × m`) and the right-hand side (`nf`).
+    pub fn reduced_system(&self) -> (CscMatrix<Complex64>, Vec<Complex64>) {
+        let elimination = &self.elimination;
+        let mut a_z = CooMatrix::new(self.graph.quads.len(), elimination.unknowns());
+        for (q, quad) in self.graph.quads.iter().enumerate() {
+            for (&v, a) in quad.iter().zip(conformal::row(self.graph.rho[q])) {
+                if elimination.is_free(v) {
+                    a_z.push(q, elimination.unknown[v as usize] as usize, a);
+                }
+            }
+        }
+        let right = (0..self.graph.quads.len()).map(|q| -conformal::residual(self.graph, q, &elimination.z0));
+        (CscMatrix::from(&a_z), right.collect())
+    }
+
+    /// How well `z` solves the problem, relative to the size of the terms that cancel.
+    ///
+    /// Where (2) is square: the largest `|r| / (|z3| + |z1| + |ρ|(|z2| + |z0|))` over the quads. Otherwise the largest
+    /// entry of the normal equations `Aᴴ W A z` at a free vertex, relative to `|Aᴴ| W |A| |z|`.
+    ///
+    /// # Errors
+    /// Integral weights where some Re ρ ≤ 0.
+    pub fn residual(&self, z: &[Complex64]) -> Result<f64, NonPositiveRho> {
+        let graph = self.graph;
+        let worst = |ratios: &mut dyn Iterator<Item = f64>| {
+            // `f64::max` would pass over a NaN.
+            ratios.fold(0.0, |a: f64, b| if a.is_nan() || a >= b { a } else { b })
+        };
+        if self.is_square() {
+            return Ok(worst(&mut (0..graph.quads.len()).map(|q| {
+                let [z0, z1, z2, z3] = graph.quads[q].map(|v| z[v as usize].norm());
+                relative(conformal::residual(graph, q, z).norm(), z3 + z1 + graph.rho[q].norm() * (z2 + z0))
+            })));
+        }
+        let w = self.weights()?;
+        let product = conformal::normal_product(graph, &w, z);
+        let scale = conformal::normal_product_scale(graph, &w, z);
+        let free = self.elimination.free.iter().map(|&v| v as usize);
+        Ok(worst(&mut free.map(|v| relative(product[v].norm(), scale[v]))))
+    }
+}
+
+/// a / b, where 0 / 0 is 0.
+fn relative(a: f64, b: f64) -> f64 {
+    if a == 0.0 { 0.0 } else { a / b }
+}
+
+/// System (2) as a matrix A with `A z = 0` for conformal z (`nf × nv`, complex).
+pub fn system(graph: &QuadGraph) -> CscMatrix<Complex64> {
+    let mut a = CooMatrix::new(graph.quads.len(), graph.vertices);
+    for (q, quad) in graph.quads.iter().enumerate() {
+        for (&v, coefficient) in quad.iter().zip(conformal::row(graph.rho[q])) {
+            a.push(q, v as usize, coefficient);
+        }
+    }
+    CscMatrix::from(&a)
+}
