@@ -1,5 +1,6 @@
 //! Riemap: discrete conformal maps of quad meshes, triangle meshes and digital surfaces.
 
+pub mod backend;
 pub mod constraint;
 pub mod energy;
 pub mod interop;
