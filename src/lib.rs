@@ -2,6 +2,7 @@
 
 pub mod backend;
 pub mod constraint;
+pub mod distortion;
 pub mod energy;
 pub mod interop;
 pub mod io;

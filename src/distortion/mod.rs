@@ -1,0 +1,162 @@
+//! How far a map is from being conformal, from preserving area and length, and from being one-to-one.
+
+mod boundary;
+mod predicate;
+mod singular;
+
+pub use boundary::{boundary_crossing, out_of_order};
+pub use singular::{FaceMap, face_maps};
+
+use num_complex::Complex64;
+use serde::Serialize;
+
+use crate::energy::conformal;
+use crate::quad_graph::QuadGraph;
+use crate::surface::Faces;
+use crate::surface::disc::Disc;
+
+/// Mean and extreme of a quantity that is 1 (a ratio) or 0 (a residual) for a perfect map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MeanMax {
+    /// Mean over faces, quads or edges.
+    pub mean: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+/// The quasi-conformal error σ1/σ2 over the faces that are neither flipped nor collapsed; 1 = conformal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct QuasiConformal {
+    /// Mean over faces.
+    pub mean: f64,
+    /// Mean weighted by area on the surface.
+    pub area_mean: f64,
+    /// 99th percentile.
+    pub p99: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+/// Everything that a run reports about a map (design: §7). `None` where no face of positive area is left to measure.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Distortion {
+    /// σ1/σ2.
+    pub quasi_conformal: Option<QuasiConformal>,
+    /// max(t, 1/t) with t = σ1 σ2 after scaling the map to the surface's area.
+    pub area: Option<MeanMax>,
+    /// Mean of σ1² + σ2² + σ1⁻² + σ2⁻² after the same scaling, weighted by area; 4 = isometric.
+    pub symmetric_dirichlet: Option<f64>,
+    /// |r| / (|ρ| |z2 − z0|) per quad, r the residual of (2).
+    pub rho_residual: Option<MeanMax>,
+    /// max(t, 1/t) with t = image length / length over the mesh's edges, after the same scaling.
+    pub length: Option<MeanMax>,
+    /// Faces whose image is not positively oriented, by an exact predicate.
+    pub flipped: usize,
+    /// The first such face.
+    pub first_flipped: Option<usize>,
+    /// Quads whose image is not strictly convex, flipped ones included; 0 for triangles.
+    pub not_convex: usize,
+    /// Whether the polygon of the boundary crosses or touches itself.
+    pub boundary_crosses: bool,
+    /// Boundary vertices that do not follow their predecessor counter-clockwise; maps onto a circle only.
+    pub boundary_out_of_order: Option<usize>,
+}
+
+impl Distortion {
+    /// Measures the map that takes vertex `v` of `graph` to `z[v]`; `graph` is that of `disc`.
+    pub fn new(disc: &Disc, graph: &QuadGraph, z: &[Complex64]) -> Self {
+        let maps = face_maps(disc, graph, z);
+        let scale = area_scale(&maps);
+        let valid: Vec<&FaceMap> = maps.iter().filter(|m| m.is_regular()).collect();
+        let flipped: Vec<usize> = (0..maps.len()).filter(|&f| !maps[f].positive).collect();
+        let quads = (0..graph.quads.len()).map(|q| {
+            let [z0, _, z2, _] = graph.quads[q].map(|v| z[v as usize]);
+            let r = conformal::residual(graph, q, z).norm();
+            if r == 0.0 { 0.0 } else { r / (graph.rho[q].norm() * (z2 - z0).norm()) }
+        });
+        let scaled = scale.unwrap_or(1.0);
+        Distortion {
+            quasi_conformal: quasi_conformal(&valid),
+            area: mean_max(valid.iter().map(|m| symmetric_ratio(m.sigma1 * m.sigma2 * scaled * scaled))),
+            symmetric_dirichlet: symmetric_dirichlet(&valid, scaled),
+            rho_residual: mean_max(quads.filter(|r| r.is_finite())),
+            length: length_distortion(disc, z, scaled),
+            flipped: flipped.len(),
+            first_flipped: flipped.first().copied(),
+            not_convex: maps.iter().filter(|m| !m.convex).count(),
+            boundary_crosses: boundary_crossing(&mesh_boundary(graph, z)).is_some(),
+            boundary_out_of_order: None,
+        }
+    }
+
+    /// Whether the map is one-to-one as far as this tells: every face positive, quads convex, the boundary simple.
+    pub fn is_valid(&self) -> bool {
+        self.flipped == 0 && self.not_convex == 0 && !self.boundary_crosses
+    }
+}
+
+/// The image of the mesh's own boundary vertices, in order.
+pub fn mesh_boundary(graph: &QuadGraph, z: &[Complex64]) -> Vec<Complex64> {
+    graph.boundary.iter().filter(|&&v| !graph.is_dual(v)).map(|&v| z[v as usize]).collect()
+}
+
+/// The factor on lengths in the plane that gives the image the surface's area; `None` where the image has none.
+fn area_scale(maps: &[FaceMap]) -> Option<f64> {
+    let surface: f64 = maps.iter().map(|m| m.area).sum();
+    let image: f64 = maps.iter().map(|m| m.area * (m.sigma1 * m.sigma2).abs()).sum();
+    let scale = (surface / image).sqrt();
+    scale.is_finite().then_some(scale)
+}
+
+/// max(t, 1/t)
+fn symmetric_ratio(t: f64) -> f64 {
+    t.max(1.0 / t)
+}
+
+fn mean_max(values: impl Iterator<Item = f64>) -> Option<MeanMax> {
+    let (mut sum, mut count, mut max) = (0.0, 0usize, f64::NEG_INFINITY);
+    for value in values {
+        sum += value;
+        count += 1;
+        max = max.max(value);
+    }
+    (count > 0).then(|| MeanMax { mean: sum / count as f64, max })
+}
+
+fn quasi_conformal(valid: &[&FaceMap]) -> Option<QuasiConformal> {
+    let mut errors: Vec<f64> = valid.iter().map(|m| m.quasi_conformal()).collect();
+    let plain = mean_max(errors.iter().copied())?;
+    let area: f64 = valid.iter().map(|m| m.area).sum();
+    let area_mean = valid.iter().map(|m| m.area * m.quasi_conformal()).sum::<f64>() / area;
+    // The smallest value that at least 99 of 100 faces do not exceed.
+    let rank = (errors.len() * 99).div_ceil(100) - 1;
+    let (_, p99, _) = errors.select_nth_unstable_by(rank, f64::total_cmp);
+    Some(QuasiConformal { mean: plain.mean, area_mean, p99: *p99, max: plain.max })
+}
+
+fn symmetric_dirichlet(valid: &[&FaceMap], scale: f64) -> Option<f64> {
+    let area: f64 = valid.iter().map(|m| m.area).sum();
+    let density = |m: &FaceMap| {
+        let [s, t] = [m.sigma1, m.sigma2].map(|sigma| (scale * sigma).powi(2));
+        s + t + 1.0 / s + 1.0 / t
+    };
+    (!valid.is_empty()).then(|| valid.iter().map(|m| m.area * density(m)).sum::<f64>() / area)
+}
+
+/// Over the edges of all faces, inner edges counting from both sides.
+fn length_distortion(disc: &Disc, z: &[Complex64], scale: f64) -> Option<MeanMax> {
+    let ratio = |a: u32, b: u32| {
+        let rest = crate::surface::vector::sub(disc.positions[b as usize], disc.positions[a as usize]);
+        symmetric_ratio(scale * (z[b as usize] - z[a as usize]).norm() / crate::surface::vector::norm(rest))
+    };
+    let edges = disc
+        .faces
+        .iter()
+        .flat_map(|polygon| (0..polygon.len()).map(move |k| (polygon[k], polygon[(k + 1) % polygon.len()])));
+    mean_max(edges.map(|(a, b)| ratio(a, b)).filter(|t| t.is_finite()))
+}
+
+/// σ1/σ2 of every face of `faces` for drawing: +∞ where a face is flipped or collapsed.
+pub fn quasi_conformal_errors(faces: &Faces, maps: &[FaceMap]) -> Vec<f64> {
+    (0..faces.len()).map(|f| if maps[f].is_regular() { maps[f].quasi_conformal() } else { f64::INFINITY }).collect()
+}

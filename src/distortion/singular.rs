@@ -1,0 +1,71 @@
+use num_complex::Complex64;
+
+use super::predicate::{diagonals_cross_left, orientation};
+use crate::energy::conformal;
+use crate::quad_graph::QuadGraph;
+use crate::surface::disc::Disc;
+use crate::surface::vector::{cross, dot, norm, sub};
+
+/// The affine map of one face, `z ↦ a z + b z̄` in the face's own plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceMap {
+    /// |a| + |b|, the larger singular value.
+    pub sigma1: f64,
+    /// |a| − |b|, the smaller one; negative where the face is turned over.
+    pub sigma2: f64,
+    /// Area on the surface.
+    pub area: f64,
+    /// Whether the image is positively oriented, exactly: of a triangle its vertices, of a quad its diagonals.
+    pub positive: bool,
+    /// Whether all corners of the image are positively oriented, exactly.
+    pub convex: bool,
+}
+
+impl FaceMap {
+    /// σ1/σ2; 1 = conformal.
+    pub fn quasi_conformal(&self) -> f64 {
+        self.sigma1 / self.sigma2
+    }
+
+    /// Whether the face keeps its orientation and its singular values can be divided by.
+    pub fn is_regular(&self) -> bool {
+        self.positive && self.sigma2 > 0.0 && self.quasi_conformal().is_finite()
+    }
+}
+
+/// The affine maps of all faces of `disc`, triangles by their vertices, quads by their diagonals and ρ.
+pub fn face_maps(disc: &Disc, graph: &QuadGraph, z: &[Complex64]) -> Vec<FaceMap> {
+    let quads = |(f, polygon): (usize, &[u32])| match *polygon {
+        [i, j, k] => triangle(disc, [i, j, k], z),
+        _ => quad(graph, f, z),
+    };
+    disc.faces.iter().enumerate().map(quads).collect()
+}
+
+/// With the edge i → j as 0 → ℓ and the third vertex at wℓ, `z_j − z_i = (a + b)ℓ`, `z_k − z_i = (a w + b w̄)ℓ`.
+fn triangle(disc: &Disc, [i, j, k]: [u32; 3], z: &[Complex64]) -> FaceMap {
+    let [x, y, t] = [i, j, k].map(|v| disc.positions[v as usize]);
+    let (edge, third) = (sub(y, x), sub(t, x));
+    let (length_squared, twice_area) = (dot(edge, edge), norm(cross(edge, third)));
+    let w = Complex64::new(dot(edge, third), twice_area) / length_squared;
+    let [zi, zj, zk] = [i, j, k].map(|v| z[v as usize]);
+    let along = (zj - zi) / length_squared.sqrt();
+    let across = (zk - zi) / length_squared.sqrt();
+    let b = (along * w - across) / Complex64::new(0.0, 2.0 * w.im);
+    let positive = orientation(zi, zj, zk) > 0.0;
+    face_map(along - b, b, 0.5 * twice_area, positive, positive)
+}
+
+/// `b = i r / (2 Re ρ |d02|)`, `a = (z2 − z0)/|d02| − b` with d02 along the real axis.
+fn quad(graph: &QuadGraph, q: usize, z: &[Complex64]) -> FaceMap {
+    let corners = graph.quads[q].map(|v| z[v as usize]);
+    let length = graph.diagonal[q];
+    let b = Complex64::I * conformal::residual(graph, q, z) / (2.0 * graph.rho[q].re * length);
+    let a = (corners[2] - corners[0]) / length - b;
+    let convex = (0..4).all(|k| orientation(corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]) > 0.0);
+    face_map(a, b, graph.area(q), diagonals_cross_left(corners), convex)
+}
+
+fn face_map(a: Complex64, b: Complex64, area: f64, positive: bool, convex: bool) -> FaceMap {
+    FaceMap { sigma1: a.norm() + b.norm(), sigma2: a.norm() - b.norm(), area, positive, convex }
+}
