@@ -4,6 +4,7 @@ pub mod backend;
 pub mod constraint;
 pub mod distortion;
 pub mod energy;
+pub mod figure;
 pub mod interop;
 pub mod io;
 pub mod objective;

@@ -1,0 +1,102 @@
+use super::colour::error_colour;
+use super::drawing::{Anchor, Drawing, Shape};
+use super::scale::Scale;
+use super::{style, text};
+
+/// Colour bar of a [`Scale`], standing right of a plot: an arrow head for values beyond it, tick marks, label, and a
+/// legend for flipped faces.
+pub(super) struct Bar {
+    ticks: Vec<(f64, String)>,
+    /// What stands beside the arrow head.
+    beyond: Option<String>,
+    label: String,
+    /// What stands beside the swatch for flipped faces.
+    flipped: Option<String>,
+}
+
+/// From the plot area to the bar.
+const DISTANCE: f64 = 44.0;
+/// Height of the arrow head: its label clears that of the bar's upper end.
+const HEAD: f64 = 46.0;
+/// Side of the legend's swatch.
+const SWATCH: f64 = style::BAR;
+/// Differently coloured strips: more than there are colours.
+const STRIPS: usize = 400;
+
+impl Bar {
+    pub(super) fn new(scale: &Scale, label: &str, flipped: usize) -> Bar {
+        Bar {
+            ticks: scale.ticks(),
+            beyond: scale.exceeded().then(|| format!("> {}", scale.upper_label())),
+            label: label.to_owned(),
+            flipped: match flipped {
+                0 => None,
+                1 => Some("1 flipped face".to_owned()),
+                n => Some(format!("{n} flipped faces")),
+            },
+        }
+    }
+
+    /// From the plot area to the right end of all text.
+    pub(super) fn width(&self) -> f64 {
+        let label = if self.label.is_empty() { 0.0 } else { 2.0 * style::GAP + style::TEXT };
+        let legend = self.flipped.as_ref().map_or(0.0, |l| 1.5 * style::GAP + text::width(l, style::SMALL_TEXT));
+        DISTANCE + style::BAR + style::WIDER_FONT * legend.max(self.tick_width() + label)
+    }
+
+    fn tick_width(&self) -> f64 {
+        let labels = self.ticks.iter().map(|(_, l)| l).chain(&self.beyond);
+        style::TICK + style::GAP + labels.map(|l| text::width(l, style::SMALL_TEXT)).fold(0.0, f64::max)
+    }
+
+    /// Draws the bar beside a plot whose upper right corner is `corner`.
+    pub(super) fn draw(&self, corner: [f64; 2], height: f64, drawing: &mut Drawing) {
+        let (left, right) = (corner[0] + DISTANCE, corner[0] + DISTANCE + style::BAR);
+        let text_left = right + style::TICK + style::GAP;
+        let mut top = corner[1];
+        let mut bottom = corner[1] + height;
+        if let Some(legend) = &self.flipped {
+            drawing.rectangle([left, bottom - SWATCH], [right, bottom], style::ALARM);
+            drawing.frame([left, bottom - SWATCH], [right, bottom]);
+            let middle = [right + 1.5 * style::GAP, bottom - SWATCH / 2.0];
+            drawing.text(middle, Anchor::Start, style::SMALL_TEXT, legend.as_str());
+            bottom -= 2.0 * SWATCH;
+        }
+        if let Some(beyond) = &self.beyond {
+            let points = vec![[left, top + HEAD], [(left + right) / 2.0, top], [right, top + HEAD]];
+            let stroke = Some((style::INK, style::LINE));
+            drawing.shapes.push(Shape::Polygon { points, fill: style::OVER, stroke });
+            drawing.text(
+                [text_left, top + HEAD - 1.25 * style::SMALL_TEXT],
+                Anchor::Start,
+                style::SMALL_TEXT,
+                beyond.as_str(),
+            );
+            top += HEAD;
+        }
+        let length = bottom - top;
+        // Each strip reaches down to the bottom and is covered by the next: no seams.
+        for i in (0..STRIPS).rev() {
+            let upper = (bottom - length * (i + 1) as f64 / STRIPS as f64).round();
+            let t = (i as f64 + 0.5) / STRIPS as f64;
+            drawing.rectangle([left, upper], [right, bottom], error_colour(t));
+        }
+        drawing.frame([left, top], [right, bottom]);
+        for (t, label) in &self.ticks {
+            let y = (bottom - length * t).round();
+            drawing.line([right, y], [right + style::TICK, y]);
+            drawing.text([text_left, y], Anchor::Start, style::SMALL_TEXT, label.as_str());
+        }
+        if !self.label.is_empty() {
+            let x = right + self.tick_width() + 2.0 * style::GAP + style::TEXT / 2.0;
+            let size = style::TEXT.min(style::TEXT * height / (1.1 * text::width(&self.label, style::TEXT)).max(1.0));
+            drawing.shapes.push(Shape::Text {
+                middle: [x, (top + bottom) / 2.0],
+                anchor: Anchor::Middle,
+                size,
+                upward: true,
+                text: self.label.clone(),
+            });
+        }
+    }
+}

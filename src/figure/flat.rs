@@ -1,0 +1,73 @@
+use super::page::Page;
+use super::{FigureError, Format};
+use crate::surface::Faces;
+
+/// A planar map drawn face by face, coloured by one number per face.
+///
+/// Units are equal on both axes. Mesh edges are drawn when an average face is large enough on paper to carry them.
+/// Flipped faces, and faces of negative value, are drawn last in [`super::ALARM`], counted in a legend.
+#[derive(Clone, Copy, Debug)]
+pub struct FlatMap<'a> {
+    /// `nv × 2`: the map. Vertices without a face may be anything.
+    pub points: &'a [[f64; 2]],
+    /// `nf` polygons.
+    pub faces: &'a Faces,
+    /// `nf`: the quasi-conformal error σ₁/σ₂, 1 where conformal; +∞ where a face collapses, negative where it flips.
+    pub values: &'a [f64],
+    /// Faces mapped with reversed orientation, in any order.
+    pub flipped: &'a [usize],
+    /// Over the map; two lines at most, may be empty.
+    pub title: &'a str,
+    /// Beside the colour bar.
+    pub scale_label: &'a str,
+}
+
+impl FlatMap<'_> {
+    /// The picture as the bytes of a file.
+    ///
+    /// # Errors
+    /// Every variant of [`FigureError`] but `UnknownFormat`: what does not fit together, names no vertex, or has no
+    /// place on paper.
+    pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
+        let page = Page::of(self)?;
+        match format {
+            Format::Png => page.to_png(),
+            Format::Svg => page.to_svg().map(String::into_bytes),
+        }
+    }
+
+    /// Checks the data; the bounding box of all faces.
+    pub(super) fn bounds(&self) -> Result<([f64; 2], [f64; 2]), FigureError> {
+        let faces = self.faces.len();
+        if faces == 0 {
+            return Err(FigureError::NoFaces);
+        }
+        if self.values.len() != faces {
+            return Err(FigureError::ValueCount { values: self.values.len(), faces });
+        }
+        if let Some(face) = self.values.iter().position(|v| v.is_nan()) {
+            return Err(FigureError::Value { face });
+        }
+        if let Some(&face) = self.flipped.iter().find(|f| **f >= faces) {
+            return Err(FigureError::Flipped { face, faces });
+        }
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for (face, polygon) in self.faces.iter().enumerate() {
+            for &vertex in polygon {
+                let Some(&[x, y]) = self.points.get(vertex as usize) else {
+                    return Err(FigureError::Vertex { face, vertex, points: self.points.len() });
+                };
+                if !(x.is_finite() && y.is_finite()) {
+                    return Err(FigureError::Point { vertex, face, x, y });
+                }
+                low = [low[0].min(x), low[1].min(y)];
+                high = [high[0].max(x), high[1].max(y)];
+            }
+        }
+        // Polygons without a single corner.
+        if low[0] > high[0] {
+            return Err(FigureError::NoFaces);
+        }
+        Ok((low, high))
+    }
+}

@@ -1,0 +1,82 @@
+use super::{FigureError, Format, plot_chart};
+
+/// A plot of series of points, lines between them, in the colours of Okabe and Ito with markers of different shapes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// Over the plot; two lines at most, may be empty.
+    pub title: String,
+    /// What goes right.
+    pub x: Axis,
+    /// What goes up.
+    pub y: Axis,
+    /// In the order of the legend.
+    pub series: Vec<Series>,
+    /// Dashed lines to compare slopes and levels with; they follow the series in the legend.
+    pub references: Vec<Reference>,
+}
+
+/// An axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// What stands beside it.
+    pub label: String,
+    /// Logarithmic: values that are not positive have no place on it and are left out.
+    pub log: bool,
+}
+
+/// Points that belong together; they are joined in order of x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name in the legend.
+    pub label: String,
+    /// (x, y); points that are not finite are left out.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// The line y = c x^slope.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// Name in the legend.
+    pub label: String,
+    /// The exponent. Both axes must be logarithmic unless it is 0.
+    pub slope: f64,
+    /// A point of the line; without one it runs just below all points.
+    pub through: Option<[f64; 2]>,
+}
+
+impl Plot {
+    /// The plot as the bytes of a file.
+    ///
+    /// # Errors
+    /// [`FigureError::NoPoints`] where nothing is left to draw; [`FigureError::Slope`] for a slope on an axis that is not
+    /// logarithmic; [`FigureError::PlotRange`] for values that floating point cannot lay on paper.
+    pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
+        plot_chart::render(self, format)
+    }
+
+    /// The points that have a place on both axes, series by series, in order of x.
+    pub(super) fn visible(&self) -> Vec<Vec<[f64; 2]>> {
+        let shown = |log: bool, v: f64| v.is_finite() && (!log || v > 0.0);
+        let visible = |series: &Series| {
+            let points = series.points.iter().filter(|p| shown(self.x.log, p[0]) && shown(self.y.log, p[1]));
+            let mut points: Vec<[f64; 2]> = points.copied().collect();
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            points
+        };
+        self.series.iter().map(visible).collect()
+    }
+}
+
+impl Reference {
+    /// y = c x^slope at `x`, given the points of the plot.
+    pub(super) fn at(&self, points: &[[f64; 2]], x: f64) -> f64 {
+        /// How far below the lowest point a line without a point of its own runs.
+        const BELOW: f64 = 0.6;
+        let constant = |p: &[f64; 2]| p[1] / p[0].powf(self.slope);
+        let c = match &self.through {
+            Some(point) => constant(point),
+            None => BELOW * points.iter().map(constant).fold(f64::INFINITY, f64::min),
+        };
+        c * x.powf(self.slope)
+    }
+}

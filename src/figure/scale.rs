@@ -1,0 +1,168 @@
+/// How values ≥ 1 (1: conformal) are laid on a colour bar from 1 to [`Scale::upper`].
+///
+/// The upper end is the 99th percentile of the finite values, rounded up to a number that reads well, so that a few bad
+/// faces do not wash out the rest; when the largest value is not much beyond, it is included. Linear in the value up
+/// to 10, logarithmic above. Values that equal 1 up to rounding get the range 1 … 1.001.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    upper: f64,
+    step: f64,
+    logarithmic: bool,
+    exceeded: bool,
+}
+
+/// Shortest range of a scale: differences below it are not worth a colour.
+const SHORTEST: f64 = 1e-3;
+/// Above this upper end a linear scale would show everything usual in its first colour.
+const LARGEST_LINEAR: f64 = 10.0;
+/// The largest value is on the scale when its distance from 1 is within this factor of the percentile's.
+const STRETCH: f64 = 1.5;
+/// Mantissas of ranges and the tick step that divides each evenly.
+const RANGES: [(f64, f64); 11] = [
+    (1.0, 0.2),
+    (1.2, 0.2),
+    (1.5, 0.25),
+    (2.0, 0.5),
+    (2.5, 0.5),
+    (3.0, 0.5),
+    (4.0, 1.0),
+    (5.0, 1.0),
+    (6.0, 1.0),
+    (8.0, 2.0),
+    (10.0, 2.0),
+];
+
+impl Scale {
+    /// The scale for `values`; +∞ counts as beyond it, negative values and NaN are passed over.
+    pub fn for_errors(values: impl IntoIterator<Item = f64>) -> Scale {
+        let (mut finite, mut infinite) = (Vec::new(), false);
+        for v in values {
+            if v == f64::INFINITY {
+                infinite = true;
+            } else if v >= 0.0 {
+                finite.push(v.max(1.0));
+            }
+        }
+        finite.sort_unstable_by(f64::total_cmp);
+        let largest = finite.last().copied().unwrap_or(1.0);
+        let percentile = finite.get((finite.len() * 99).div_ceil(100).max(1) - 1).copied().unwrap_or(1.0);
+
+        let wanted = if largest - 1.0 <= STRETCH * (percentile - 1.0).max(SHORTEST) { largest } else { percentile };
+        let (upper, step, logarithmic) = if wanted > LARGEST_LINEAR {
+            (round_up_in_decade(wanted), 0.0, true)
+        } else {
+            let (range, step) = round_up_range((wanted - 1.0).max(SHORTEST));
+            (1.0 + range, step, false)
+        };
+        // A value that differs from the upper end by rounding alone is on the scale.
+        let exceeded = infinite || largest - 1.0 > (upper - 1.0) * (1.0 + 1e-9);
+        Scale { upper, step, logarithmic, exceeded }
+    }
+
+    /// The largest value on the scale.
+    pub fn upper(&self) -> f64 {
+        self.upper
+    }
+
+    /// Whether some value lies beyond the upper end.
+    pub fn exceeded(&self) -> bool {
+        self.exceeded
+    }
+
+    /// Place on the bar, 0 at value 1 (and below) and 1 at the upper end; `None` beyond it.
+    pub fn position(&self, value: f64) -> Option<f64> {
+        let t = if self.logarithmic { value.ln() / self.upper.ln() } else { (value - 1.0) / (self.upper - 1.0) };
+        (t <= 1.0 + 1e-9).then(|| t.clamp(0.0, 1.0))
+    }
+
+    /// Places and labels of the tick marks, the first at 1, the last at the upper end.
+    pub fn ticks(&self) -> Vec<(f64, String)> {
+        if self.logarithmic {
+            return self.logarithmic_ticks();
+        }
+        let count = ((self.upper - 1.0) / self.step).round() as usize;
+        let decimals = decimals_of(self.step);
+        (0..=count).map(|k| (k as f64 / count as f64, format!("{:.decimals$}", 1.0 + k as f64 * self.step))).collect()
+    }
+
+    /// The upper end as on its tick mark.
+    pub fn upper_label(&self) -> String {
+        self.ticks().pop().map(|(_, label)| label).unwrap_or_default()
+    }
+
+    /// 1, 2, 5 of every decade when there are at most three; else decades, thinned to about eight.
+    fn logarithmic_ticks(&self) -> Vec<(f64, String)> {
+        let decades = self.upper.log10();
+        let mantissas: &[f64] = if decades <= 3.0 + 1e-9 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let thin = (decades / 8.0).ceil().max(1.0) as usize;
+        let mut values = Vec::new();
+        for decade in (0..=decades.floor() as i32).step_by(thin) {
+            values.extend(mantissas.iter().map(|m| m * 10f64.powi(decade)).filter(|v| *v <= self.upper * (1.0 + 1e-9)));
+        }
+        let mut ticks: Vec<_> = values.iter().map(|v| (v.log10() / decades, power_label(*v))).collect();
+        match ticks.last() {
+            Some((t, _)) if *t > 1.0 - 1e-9 => {}
+            last => {
+                // Two labels closer than this would touch.
+                if last.is_some_and(|(t, _)| *t > 0.94) {
+                    ticks.pop();
+                }
+                ticks.push((1.0, power_label(self.upper)));
+            }
+        }
+        ticks
+    }
+}
+
+/// Smallest mantissa × power of ten that is not below `range`, and a step that divides it.
+fn round_up_range(range: f64) -> (f64, f64) {
+    let power = 10f64.powf(range.log10().floor());
+    let (mantissa, step) =
+        RANGES.into_iter().find(|(m, _)| range <= m * power * (1.0 + 1e-9)).unwrap_or(RANGES[RANGES.len() - 1]);
+    (mantissa * power, step * power)
+}
+
+/// Smallest of 1, 2, 5 × power of ten that is not below `value`; the largest float when there is none.
+fn round_up_in_decade(value: f64) -> f64 {
+    let power = 10f64.powf(value.log10().floor());
+    let rounded = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|v| value <= v * (1.0 + 1e-9));
+    rounded.unwrap_or(f64::MAX).min(f64::MAX)
+}
+
+/// Digits after the point that a multiple of `step` needs.
+pub(super) fn decimals_of(step: f64) -> usize {
+    (0..15)
+        .find(|d| {
+            let scaled = step * 10f64.powi(*d);
+            (scaled - scaled.round()).abs() < 1e-6 * scaled.max(1.0) && scaled.round() >= 1.0
+        })
+        .unwrap_or(15) as usize
+}
+
+/// `2000` up to there, then `5×10⁴`.
+fn power_label(value: f64) -> String {
+    if value < 9999.0 { format!("{value:.0}") } else { exponent_label(value, 0) }
+}
+
+/// Mantissa with `digits` decimals times a power of ten in superscripts; a mantissa of 1 is not written.
+pub(super) fn exponent_label(value: f64, digits: usize) -> String {
+    let written = format!("{value:.digits$e}");
+    let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
+    let raised: String = exponent.chars().map(superscript).collect();
+    match mantissa {
+        "1" => format!("10{raised}"),
+        "-1" => format!("−10{raised}"),
+        _ => format!("{}×10{raised}", mantissa.replace('-', "−")),
+    }
+}
+
+fn superscript(c: char) -> char {
+    match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '0' | '4'..='9' => char::from_u32('⁰' as u32 + c as u32 - '0' as u32).unwrap_or(c),
+        _ => c,
+    }
+}
