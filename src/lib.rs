@@ -7,6 +7,7 @@ pub mod energy;
 pub mod figure;
 pub mod interop;
 pub mod io;
+pub mod libigl;
 pub mod objective;
 pub mod problem;
 pub mod quad_graph;
