@@ -1,0 +1,38 @@
+use super::{Map, MapError, MapOptions, Outcome};
+use crate::backend::{Observer, solve_linear};
+use crate::constraint::Fixed;
+use crate::energy::conformal;
+use crate::problem::LinearProblem;
+use crate::quad_graph::QuadGraph;
+
+impl MapOptions {
+    /// The map that minimises H over those that hold `fixed`.
+    ///
+    /// # Errors
+    /// Constraints that do not suffice; a solver that does not suit or fails.
+    pub fn solve(&self, graph: &QuadGraph, fixed: Fixed, watch: &mut dyn Observer) -> Result<Map, MapError> {
+        let problem = LinearProblem::new(graph, self.weight, &fixed)?;
+        let solution = solve_linear(&problem, &self.solver, watch)?;
+        let weights = conformal::weights(graph, self.weight).ok();
+        let gradient_norm = weights.as_ref().map(|w| {
+            let product = conformal::normal_product(graph, w, &solution.z);
+            let free = problem.elimination.free.iter().map(|&v| (2.0 * product[v as usize]).norm_sqr());
+            free.sum::<f64>().sqrt()
+        });
+        let total = weights.map(|w| conformal::value(graph, &w, &solution.z));
+        Ok(Map {
+            total,
+            energies: total.map(|h| ("H", h)).into_iter().collect(),
+            gradient_norm,
+            z: solution.z,
+            fixed,
+            backend: solution.backend,
+            outcome: Outcome::Solved,
+            iterations: 0,
+            residual: Some(solution.residual),
+            smallest_singular_value: None,
+            on_circle: self.fixed_on_circle(),
+            anchored: false,
+        })
+    }
+}

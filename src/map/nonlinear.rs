@@ -1,0 +1,332 @@
+//! Maps that minimise more than H: the initial map of §3.2 and §3.3 of the paper, what is held, and the stages of the
+//! minimisation.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use super::options::hold_pins;
+use super::{Boundary, Map, MapError, MapOptions, Outcome};
+use crate::backend::nonlinear::smallest_singular_value;
+use crate::backend::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
+use crate::constraint::{Fixed, Freedoms, float_white_back, hold_gauge, on_circle, spread_points};
+use crate::energy::conformal::{Dirichlet, Weight};
+use crate::energy::{Energy, Expression, Order, Rest, energy};
+use crate::objective::Objective;
+use crate::problem::LinearProblem;
+use crate::quad_graph::QuadGraph;
+use crate::quad_graph::metric::RestMetric;
+use crate::surface::disc::Disc;
+
+/// A minimisation that ends at rounding counts as converged when it has brought the gradient down to this.
+const ACCEPTED_REDUCTION: f64 = 1e-5;
+
+/// L' is first weakened by this factor: with integral weights it is stiff, and far from a solution the energy has long
+/// narrow valleys. A solution with H = L' = 0 is one for every coefficient.
+const SOFTENED: f64 = 0.01;
+
+/// How far from the unit circle the pin of a boundary vertex may be: places are often typed with three digits.
+const PIN_ON_CIRCLE: f64 = 1e-3;
+
+/// Coefficients of the barrier that keeps the boundary in order, stage after stage.
+const BARRIER: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];
+
+/// Minimises `expression`.
+pub(super) fn minimise(
+    options: &MapOptions,
+    expression: &Expression,
+    disc: &Disc,
+    graph: &QuadGraph,
+    exact: Option<&[[f64; 2]]>,
+    watch: &mut dyn Observer,
+) -> Result<Map, MapError> {
+    let backend = choose(&options.solver)?;
+    if !(options.tolerance > 0.0 && options.tolerance < 1.0) {
+        return Err(MapError::Tolerance { tolerance: options.tolerance });
+    }
+    let metric = options.rest_metric(disc, graph)?;
+    let circle = expression.has("C") && options.boundary != Boundary::Fixed;
+    let anchors = if circle { anchors(options, expression, disc, graph, exact)? } else { Anchors::default() };
+    let z = initial(options, expression, disc, graph, &anchors)?;
+    let fixed = held(options, expression, disc, graph, &anchors, &z)?;
+    let problem = Problem { options, expression, graph, metric: &metric, fixed: &fixed };
+    let objective = problem.objective()?;
+    let start = objective.freedoms.restrict(&z);
+    let rule = StopRule { tolerance: options.tolerance, reference: None, max_iterations: options.max_iterations };
+    let (minimum, iterations) = if options.keep_order && circle {
+        problem.in_order(backend, start, rule, watch)?
+    } else if problem.is_stiff() && backend.name() == MINIMISERS[0].name() {
+        problem.softened_first(backend, &objective, start, rule, watch)?
+    } else {
+        let minimum = backend.minimise(&objective, start, rule, watch)?;
+        (minimum.clone(), minimum.iterations)
+    };
+    accept(backend, &minimum, options)?;
+
+    let mut z = objective.freedoms.expand(&minimum.y);
+    let only_diagonals = expression.has("A") && !["L", "Lb", "C"].iter().any(|name| expression.has(name));
+    if only_diagonals && options.boundary != Boundary::Fixed && options.pins.is_empty() {
+        float_white_back(graph, &metric, &mut z);
+    }
+    let energies = objective.values(&minimum.y);
+    let total = objective.terms.iter().zip(&energies).map(|((t, _), (_, e))| t * e).sum();
+    let smallest_singular_value = if circle { smallest_singular_value(&objective, &minimum.y) } else { None };
+    Ok(Map {
+        z,
+        total: Some(total),
+        energies,
+        gradient_norm: Some(minimum.gradient_norm),
+        backend: backend.name(),
+        outcome: Outcome::Minimised(minimum.status),
+        iterations,
+        residual: None,
+        smallest_singular_value,
+        on_circle: circle || (options.boundary == Boundary::Fixed && options.fixed_on_circle()),
+        anchored: anchors.exact,
+        fixed,
+    })
+}
+
+fn choose(name: &str) -> Result<&'static dyn Minimiser, MapError> {
+    if name == "auto" {
+        return Ok(MINIMISERS[0]);
+    }
+    minimiser(name).ok_or_else(|| MapError::NotAMinimiser {
+        name: name.to_owned(),
+        known: MINIMISERS.iter().map(|m| m.name()).collect::<Vec<_>>().join(", "),
+    })
+}
+
+/// Fails where the minimisation did not converge, unless the user set its end.
+fn accept(backend: &dyn Minimiser, minimum: &Minimum, options: &MapOptions) -> Result<(), MapError> {
+    let good = match minimum.status {
+        Status::Converged | Status::Interrupted => true,
+        Status::Precision => minimum.reduction() <= ACCEPTED_REDUCTION.max(options.tolerance),
+        Status::MaxIterations => options.max_iterations.is_some(),
+    };
+    if good {
+        return Ok(());
+    }
+    Err(MapError::NotConverged {
+        backend: backend.name(),
+        status: minimum.status.name(),
+        iterations: minimum.iterations,
+        reduction: minimum.reduction(),
+        tolerance: options.tolerance,
+    })
+}
+
+/// Points of a circle map that are held: positions on the boundary with their angles, ascending.
+#[derive(Default)]
+struct Anchors {
+    points: Vec<(usize, f64)>,
+    /// Whether the angles are those of the exact map.
+    exact: bool,
+}
+
+fn anchors(
+    options: &MapOptions,
+    expression: &Expression,
+    disc: &Disc,
+    graph: &QuadGraph,
+    exact: Option<&[[f64; 2]]>,
+) -> Result<Anchors, MapError> {
+    if !(2..=3).contains(&options.fix) {
+        return Err(MapError::FixedPoints { fix: options.fix });
+    }
+    if !options.pins.is_empty() {
+        return pinned_anchors(options, disc, graph);
+    }
+    // With lengths or areas in the energy nothing is free but the rotation, which one point's direction takes.
+    if expression.rows().any(|row| row.metric) {
+        return Ok(Anchors { points: vec![(0, 0.0)], exact: false });
+    }
+    let positions = spread_points(graph, options.fix);
+    let arc = on_circle(graph, 1.0, &[(0, 0.0)])?;
+    let place = |k: usize| match exact {
+        Some(w) => {
+            let [x, y] = w[disc.source_vertex[graph.boundary[k] as usize] as usize];
+            Complex64::new(x, y)
+        }
+        None => arc.place(graph.boundary[k]).unwrap_or_default(),
+    };
+    let places = positions.iter().map(|&k| (k, place(k)));
+    Ok(Anchors { points: increasing_angles(places).unwrap_or_else(|_| vec![(0, 0.0)]), exact: exact.is_some() })
+}
+
+/// The pins that are on the boundary as anchors of the initial circle.
+fn pinned_anchors(options: &MapOptions, disc: &Disc, graph: &QuadGraph) -> Result<Anchors, MapError> {
+    let mut fixed = Fixed::default();
+    hold_pins(&mut fixed, disc, &options.pins)?;
+    let mut is_boundary = vec![false; graph.vertices];
+    for &v in &graph.boundary {
+        is_boundary[v as usize] = true;
+    }
+    for (v, place) in fixed.iter() {
+        let (vertex, radius) = (disc.source_vertex[v as usize], place.norm());
+        match is_boundary[v as usize] {
+            true if (radius - 1.0).abs() > PIN_ON_CIRCLE => return Err(MapError::PinOffCircle { vertex, radius }),
+            false if radius >= 1.0 - PIN_ON_CIRCLE => return Err(MapError::PinOutside { vertex, radius }),
+            _ => {}
+        }
+    }
+    let on_boundary = (0..graph.boundary.len()).filter_map(|k| Some((k, fixed.place(graph.boundary[k])?)));
+    let points = increasing_angles(on_boundary.filter(|(_, place)| place.norm() > 0.0))
+        .map_err(|k| MapError::PinsOutOfOrder { vertex: disc.source_vertex[graph.boundary[k] as usize] })?;
+    Ok(Anchors { points: if points.is_empty() { vec![(0, 0.0)] } else { points }, exact: false })
+}
+
+/// The angles of places along the boundary, each larger than the one before, less than 2π in all; else the position of
+/// the first place that is out of order.
+fn increasing_angles(places: impl Iterator<Item = (usize, Complex64)>) -> Result<Vec<(usize, f64)>, usize> {
+    let mut points: Vec<(usize, f64)> = Vec::new();
+    for (k, place) in places {
+        let angle = match points.first() {
+            None => place.arg(),
+            Some(&(_, first)) => first + (place / Complex64::cis(first)).arg().rem_euclid(TAU),
+        };
+        if points.last().is_some_and(|&(_, last)| angle <= last) {
+            return Err(k);
+        }
+        points.push((k, angle));
+    }
+    Ok(points)
+}
+
+/// The boundary on a circle by arc length, of the perimeter's radius where lengths count, the interior from H.
+fn initial(
+    options: &MapOptions,
+    expression: &Expression,
+    disc: &Disc,
+    graph: &QuadGraph,
+    anchors: &Anchors,
+) -> Result<Vec<Complex64>, MapError> {
+    let fixed = if options.boundary == Boundary::Fixed {
+        options.fixed(disc, graph)?
+    } else {
+        let lengths_count = expression.rows().any(|row| row.metric) && !expression.has("C");
+        let radius = if lengths_count { graph.perimeter() / TAU } else { 1.0 };
+        let points = if anchors.points.is_empty() { vec![(0, 0.0)] } else { anchors.points.clone() };
+        on_circle(graph, radius, &points)?
+    };
+    let problem = LinearProblem::new(graph, options.weight, &fixed)?;
+    Ok(solve_linear(&problem, "auto", &mut crate::backend::Silent)?.z)
+}
+
+/// What is held while the energy is minimised (design: the table of §3).
+fn held(
+    options: &MapOptions,
+    expression: &Expression,
+    disc: &Disc,
+    graph: &QuadGraph,
+    anchors: &Anchors,
+    z: &[Complex64],
+) -> Result<Fixed, MapError> {
+    if options.boundary == Boundary::Fixed {
+        return options.fixed(disc, graph);
+    }
+    let mut fixed = Fixed::default();
+    hold_pins(&mut fixed, disc, &options.pins)?;
+    let metric = expression.rows().any(|row| row.metric);
+    if !fixed.is_empty() {
+        return Ok(fixed);
+    }
+    match (expression.has("C"), metric) {
+        (true, false) => {
+            for &(k, angle) in &anchors.points {
+                fixed.hold(graph.boundary[k], Complex64::cis(angle));
+            }
+        }
+        (true, true) => {
+            let first = graph.boundary[0];
+            fixed.hold_on_line(first, Complex64::ZERO, z[first as usize]);
+        }
+        (false, _) => hold_gauge(&mut fixed, expression, graph, z),
+    }
+    Ok(fixed)
+}
+
+/// What objectives are made of.
+struct Problem<'a> {
+    options: &'a MapOptions,
+    expression: &'a Expression,
+    graph: &'a QuadGraph,
+    metric: &'a RestMetric,
+    fixed: &'a Fixed,
+}
+
+impl Problem<'_> {
+    fn objective(&self) -> Result<Objective, MapError> {
+        let Problem { options, graph, metric, fixed, .. } = *self;
+        let held: Vec<bool> = (0..graph.vertices as u32).map(|v| fixed.holds(v)).collect();
+        let rest = Rest { graph, metric, weight: options.weight, held: &held };
+        let mut terms: Vec<(f64, Box<dyn Energy>)> = Vec::new();
+        for term in self.expression.terms.iter().filter(|term| term.coefficient > 0.0) {
+            if let Some(row) = energy(term.name) {
+                terms.push((term.coefficient, (row.make)(rest)?));
+            }
+        }
+        let freedoms = Freedoms::new(graph.vertices, fixed);
+        Ok(Objective { terms, freedoms, norm: Dirichlet::new(graph, options.weight) })
+    }
+
+    /// Whether L' is stiff beside H.
+    fn is_stiff(&self) -> bool {
+        self.options.weight == Weight::Integral && self.expression.has("H") && self.expression.has("Lb")
+    }
+
+    /// Minimises with a weakened L' first.
+    fn softened_first(
+        &self,
+        backend: &dyn Minimiser,
+        objective: &Objective,
+        start: Vec<f64>,
+        rule: StopRule,
+        watch: &mut dyn Observer,
+    ) -> Result<(Minimum, usize), MapError> {
+        let mut soft = self.objective()?;
+        for (coefficient, _) in soft.terms.iter_mut().filter(|(_, energy)| energy.name() == "Lb") {
+            *coefficient *= SOFTENED;
+        }
+        let first = backend.minimise(&soft, start, rule, watch)?;
+        if first.status == Status::Interrupted {
+            return Ok((first.clone(), first.iterations));
+        }
+        // The second start is next to the end: its own gradient would be no measure.
+        let left = rule.max_iterations.map(|n| n.saturating_sub(first.iterations));
+        let rule = StopRule { max_iterations: left, reference: Some(first.reference), ..rule };
+        let minimum = backend.minimise(objective, first.y, rule, watch)?;
+        let iterations = first.iterations + minimum.iterations;
+        Ok((minimum, iterations))
+    }
+
+    /// Minimises with a barrier between neighbours on the boundary, weaker at each stage.
+    fn in_order(
+        &self,
+        backend: &dyn Minimiser,
+        start: Vec<f64>,
+        rule: StopRule,
+        watch: &mut dyn Observer,
+    ) -> Result<(Minimum, usize), MapError> {
+        let mut objective = self.objective()?;
+        objective.terms.push((BARRIER[0], Box::new(Order::new(self.graph))));
+        let barrier = objective.terms.len() - 1;
+        let mut iterations = 0;
+        let mut y = start;
+        let mut rule = rule;
+        let mut last = None;
+        for coefficient in BARRIER {
+            objective.terms[barrier].0 = coefficient;
+            let minimum = backend.minimise(&objective, y, rule, watch)?;
+            iterations += minimum.iterations;
+            y = minimum.y.clone();
+            rule.reference = Some(minimum.reference);
+            let stop = minimum.status == Status::Interrupted;
+            last = Some(minimum);
+            if stop {
+                break;
+            }
+        }
+        last.map(|minimum| (minimum, iterations)).ok_or(MapError::FreeBoundary)
+    }
+}
