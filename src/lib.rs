@@ -1,9 +1,73 @@
-//! Riemap: discrete conformal maps of quad meshes, triangle meshes and digital surfaces.
+//! Riemap: discrete conformal maps of quad meshes, triangle meshes and digital surfaces, after Cartade, Mercat,
+//! Malgouyres, Samir, *Mesh Parameterization with Generalized Discrete Conformal Maps* (J. Math. Imaging Vis. 46, 2013).
+//!
+//! Every quad carries one complex number ρ, made of its diagonals, and a map z of the vertices is *discrete conformal* when
+//! on every quad
+//!
+//! ```text
+//! z3 − z1 = iρ (z2 − z0)                                                     (2)
+//! ```
+//!
+//! A triangle mesh becomes such a *quad graph* by a dual vertex per face; one quad stands for each edge.
+//!
+//! # The pipeline
+//!
+//! Data flows one way, and nothing imports what comes after it:
+//!
+//! ```text
+//! surface → quad graph → energies + constraints → problem → backend → map → distortion → report → figure
+//! ```
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`surface`] | positions and polygons; [`Diagnosis`](surface::diagnosis::Diagnosis): what it is and what is wrong; [`Disc`](surface::disc::Disc); generated surfaces |
+//! | [`quad_graph`] | quads, ρ, boundary; rest lengths and areas; dual points |
+//! | [`energy`] | H, C, A, L, L' with all derivatives; `H + 0.5 L` as an expression |
+//! | [`constraint`] | held vertices, shapes of the boundary, gauges; elimination x = Z y + x0 |
+//! | [`problem`], [`objective`] | the linear problem; the nonlinear one |
+//! | [`backend`] | direct solvers and minimisers by name |
+//! | [`map`] | all of it in one call |
+//! | [`distortion`], [`report`], [`figure`] | how good a map is, its record, its picture |
+//! | [`io`], [`input`] | mesh files; surfaces by file or name |
+//! | [`verify`], [`libigl`] | the cotan equivalence, checked against libigl itself |
+//! | [`experiment`] | configurations, runs, tables, plots |
+//! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
+//!
+//! # One map
+//!
+//! ```
+//! use riemap::{backend::Silent, input::Input, map};
+//!
+//! let input = Input::open("sphere?n=16&mesh=delaunay")?;
+//! let mapped = map::run(&input, &map::MapOptions::default(), &mut Silent)?;
+//! // Three boundary points are where the exact conformal map has them; the others find their places.
+//! assert_eq!(mapped.distortion.flipped, 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # The paper's equations
+//!
+//! | equation | function |
+//! |---|---|
+//! | (1) `ρ = (c − ip)/‖d02‖²` | [`quad_graph::rho::extrinsic`], [`quad_graph::rho::with_normal`] |
+//! | (2) as a matrix | [`problem::system`]; one row: [`energy::conformal::row`] |
+//! | §2.3 ρ of triangle meshes, `½(cot α + cot β)` | [`quad_graph::QuadGraph::from_triangles`], [`quad_graph::dual`] |
+//! | H, and ∂H/∂z̄ = Aᴴ W A z | [`energy::conformal::value`], [`energy::conformal::normal_product`] |
+//! | C | [`energy::Circle`] |
+//! | A | [`energy::Authalic`] |
+//! | L, L' | [`energy::Metric`] |
+//! | αH + βC + δA + γL + γ'L' | [`energy::Expression`], [`objective::Objective`] |
+//! | §3.2 boundary on a circle by arc length | [`constraint::on_circle`] |
+//! | §3.3 what must be held | [`constraint::hold_gauge`], [`constraint::spread_points`] |
+//!
+//! The printed H has no i before ρ, A's first term lost a conjugate, and the cotangents a factor ½; here they are as they
+//! must be.
 
 pub mod backend;
 pub mod constraint;
 pub mod distortion;
 pub mod energy;
+pub mod experiment;
 pub mod figure;
 pub mod input;
 pub mod interop;

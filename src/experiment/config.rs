@@ -1,0 +1,209 @@
+use std::collections::{BTreeMap, HashSet};
+use std::path::Path;
+use std::str::FromStr;
+
+use serde::Deserialize;
+use serde_json::Value;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::document::{Axis, Document, Sources};
+use super::{Bound, ConfigError, KINDS, Kind, PlotSpec, Task};
+
+/// More runs than these in one config are taken for a mistake.
+const MOST_RUNS: usize = 10_000;
+/// Longest name of a run's file, without extension.
+const LONGEST_NAME: usize = 100;
+/// The top-level keys of every config.
+const HEAD: [&str; 7] = ["title", "claim", "kind", "sweep", "expect", "table", "plots"];
+
+/// A column of an experiment's table.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Column {
+    /// Dotted key of the record.
+    pub key: String,
+    /// Heading.
+    pub label: String,
+}
+
+/// `[table]`.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    columns: Vec<Column>,
+}
+
+/// One point of the sweep.
+pub struct Run {
+    /// The swept values, as they name the record's file; `run` without a sweep.
+    pub name: String,
+    /// The config as resolved.
+    pub config: Value,
+    /// What the claim says of the result, by dotted key.
+    pub expect: BTreeMap<String, Bound>,
+    /// What is to be done.
+    pub task: Box<dyn Task>,
+}
+
+/// A config, checked and made into runs.
+pub struct Config {
+    /// The file's name without extension: that of its results.
+    pub name: String,
+    /// Its path.
+    pub path: String,
+    /// Its title.
+    pub title: String,
+    /// What it is to show.
+    pub claim: String,
+    /// What one run does.
+    pub kind: &'static dyn Kind,
+    /// The runs: the last swept key varies fastest.
+    pub runs: Vec<Run>,
+    /// The dotted keys that are swept, in the order of the file.
+    pub swept: Vec<String>,
+    /// Columns of the table, after the swept keys.
+    pub columns: Vec<Column>,
+    /// Plots over the runs, by name.
+    pub plots: BTreeMap<String, PlotSpec>,
+}
+
+impl Config {
+    /// Reads a config and applies settings of the form `dotted.key=value`; a setting of a swept key takes the place of
+    /// the sweep over it.
+    ///
+    /// # Errors
+    /// [`ConfigError`]: whatever in the file or the settings is not understood, with its line.
+    pub fn load(path: &Path, sets: &[String]) -> Result<Self, ConfigError> {
+        let text =
+            std::fs::read_to_string(path).map_err(|source| ConfigError::Read { path: path.to_owned(), source })?;
+        let name = path.file_stem().and_then(|stem| stem.to_str());
+        let name = name.ok_or_else(|| ConfigError::Name { path: path.to_owned() })?;
+        Config::parse(name, Sources::new(&path.display().to_string(), text, sets)?)
+    }
+
+    fn parse(name: &str, sources: Sources) -> Result<Self, ConfigError> {
+        let (mut document, set) = sources.tree()?;
+        let kind_name = document.optional::<String>("kind")?.unwrap_or_else(|| KINDS[0].name().to_owned());
+        let known: Vec<&str> = KINDS.iter().map(|kind| kind.name()).collect();
+        document.check_name("kind", "kind of experiment", &kind_name, &known)?;
+        let kind = *KINDS.iter().find(|kind| kind.name() == kind_name).unwrap_or(&KINDS[0]);
+        document.check_keys(&[&HEAD[..], kind.tables()].concat())?;
+        let columns = match document.optional::<Table>("table")? {
+            Some(table) => table.columns,
+            None => kind.columns().iter().map(|(key, label)| Column::new(key, label)).collect(),
+        };
+        let mut sweep = document.sweep()?;
+        sweep.retain(|(key, _)| !set.contains(key));
+        let mut config = Config {
+            name: name.to_owned(),
+            path: document.file().to_owned(),
+            title: document.optional("title")?.unwrap_or_else(|| name.to_owned()),
+            claim: document.optional("claim")?.unwrap_or_default(),
+            kind,
+            runs: Vec::new(),
+            swept: sweep.iter().map(|(key, _)| key.clone()).collect(),
+            columns,
+            plots: document.optional("plots")?.unwrap_or_default(),
+        };
+        for key in ["sweep", "table", "plots"] {
+            document.remove(key);
+        }
+        let runs = sweep.iter().try_fold(1usize, |n, (_, values)| n.checked_mul(values.len()));
+        if runs.is_none_or(|runs| runs > MOST_RUNS) {
+            return Err(ConfigError::TooManyRuns { source_name: config.path, limit: MOST_RUNS });
+        }
+        let mut names = HashSet::new();
+        for point in product(&sweep) {
+            let mut document = document.clone();
+            for (key, value) in &point {
+                document.assign(&key.split('.').collect::<Vec<_>>(), (*value).clone())?;
+            }
+            config.runs.push(run(kind, document, &config.swept, &mut names)?);
+        }
+        Ok(config)
+    }
+
+    /// The runs of one shard, with their positions among all.
+    pub fn shard(&self, shard: Shard) -> impl Iterator<Item = (usize, &Run)> {
+        self.runs.iter().enumerate().filter(move |(i, _)| i % shard.count == shard.index - 1)
+    }
+}
+
+impl Column {
+    fn new(key: &str, label: &str) -> Self {
+        Column { key: key.to_owned(), label: label.to_owned() }
+    }
+}
+
+fn run(
+    kind: &dyn Kind,
+    mut document: Document,
+    swept: &[String],
+    names: &mut HashSet<String>,
+) -> Result<Run, ConfigError> {
+    let expect = document.optional("expect")?.unwrap_or_default();
+    let task = kind.task(&document)?;
+    document.remove("title");
+    document.remove("claim");
+    let config = document.to_json()?;
+    let base = run_name(&config, swept);
+    let numbered = (2..).map(|i| format!("{base}-{i}"));
+    let name = std::iter::once(base.clone()).chain(numbered).find(|name| !names.contains(name)).unwrap_or(base);
+    names.insert(name.clone());
+    Ok(Run { name, config, expect, task })
+}
+
+/// `n=33,dual=barycentre`: the last part of each swept key with its value, in characters that every file system takes.
+fn run_name(config: &Value, swept: &[String]) -> String {
+    let part = |key: &String| {
+        let value = key.split('.').try_fold(config, |value, name| value.get(name)).unwrap_or(&Value::Null);
+        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        let last = key.rsplit('.').next().unwrap_or(key);
+        let plain = |c: char| if c.is_ascii_alphanumeric() || "+-._=".contains(c) { c } else { '-' };
+        format!("{last}={}", text.chars().map(plain).collect::<String>())
+    };
+    let mut name = swept.iter().map(part).collect::<Vec<_>>().join(",");
+    name.truncate(LONGEST_NAME);
+    if name.is_empty() { "run".to_owned() } else { name }
+}
+
+/// Every choice of one value per axis, the last axis fastest.
+fn product<'s, 'a>(axes: &'s [Axis<'a>]) -> Vec<Vec<(&'s str, &'s Spanned<DeValue<'a>>)>> {
+    let mut points = vec![Vec::new()];
+    for (key, values) in axes {
+        let longer = |point: &Vec<_>, value| point.iter().copied().chain([(key.as_str(), value)]).collect();
+        points = points.iter().flat_map(|point| values.iter().map(move |value| longer(point, value))).collect();
+    }
+    points
+}
+
+/// The runs whose position is `index − 1` modulo `count`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1 to `count`.
+    pub index: usize,
+    /// At least 1.
+    pub count: usize,
+}
+
+impl Shard {
+    /// All runs.
+    pub const ALL: Shard = Shard { index: 1, count: 1 };
+}
+
+/// Neither `1/3` nor the like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected i/n with 1 ≤ i ≤ n, for example 1/4")]
+pub struct NoShard;
+
+impl FromStr for Shard {
+    type Err = NoShard;
+
+    fn from_str(text: &str) -> Result<Self, NoShard> {
+        let (index, count) = text.split_once('/').ok_or(NoShard)?;
+        let number = |text: &str| text.parse::<usize>().map_err(|_| NoShard);
+        let shard = Shard { index: number(index)?, count: number(count)? };
+        if (1..=shard.count).contains(&shard.index) { Ok(shard) } else { Err(NoShard) }
+    }
+}

@@ -1,0 +1,230 @@
+use std::ops::Range;
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
+
+use super::error::{ConfigError, Place};
+
+/// The texts that a config is made of: the file, and every `--set`. They are numbered through, so that the span of a
+/// value tells which of them it came from.
+#[derive(Clone, Debug)]
+pub(super) struct Sources {
+    /// Name, text, and first byte in the common numbering.
+    texts: Vec<(String, String, usize)>,
+}
+
+impl Sources {
+    /// A file and texts like `key=value`, each made TOML: a value that is none becomes a string.
+    pub(super) fn new(file: &str, text: String, sets: &[String]) -> Result<Self, ConfigError> {
+        let mut start = text.len() + 1;
+        let mut texts = vec![(file.to_owned(), text, 0)];
+        for set in sets {
+            let malformed = || ConfigError::Set { text: set.clone() };
+            let (key, value) = set.split_once('=').ok_or_else(malformed)?;
+            let bare = format!("{} = {}", key.trim(), value.trim());
+            let quoted = || format!("{} = {:?}", key.trim(), value.trim());
+            let text = if DeTable::parse(&bare).is_ok() { bare } else { quoted() };
+            let single = DeTable::parse(&text).map(|table| table.get_ref().len() == 1);
+            if !single.unwrap_or(false) {
+                return Err(malformed());
+            }
+            // The blanks in front put the spans where the numbering has this text.
+            let padded = " ".repeat(start) + &text;
+            texts.push((format!("--set {set}"), padded, start));
+            start += text.len() + 1;
+        }
+        Ok(Sources { texts })
+    }
+
+    /// The file as a tree, with the `--set` values put in, and the dotted keys of these.
+    pub(super) fn tree(&self) -> Result<(Document<'_>, Vec<String>), ConfigError> {
+        let mut trees = Vec::new();
+        for (_, text, _) in &self.texts {
+            trees.push(DeTable::parse(text).map_err(|e| self.error(&e, None))?);
+        }
+        let mut trees = trees.into_iter();
+        let root = trees.next().unwrap_or_else(|| Spanned::new(0..0, DeTable::new()));
+        let mut document = Document { sources: self, root, assigned: Vec::new() };
+        let mut keys = Vec::new();
+        for set in trees {
+            for (path, value) in leaves(set.get_ref(), &[]) {
+                document.assign(&path, value)?;
+                keys.push(path.join("."));
+            }
+        }
+        Ok((document, keys))
+    }
+
+    pub(super) fn file(&self) -> &str {
+        self.texts.first().map_or("", |(name, ..)| name)
+    }
+
+    fn place(&self, span: Range<usize>) -> Box<Place> {
+        let owner = self.texts.iter().rfind(|(_, _, start)| *start <= span.start);
+        let Some((name, text, start)) = owner else {
+            return Box::new(Place { source: String::new(), line: None, text: String::new(), column: 0, width: 1 });
+        };
+        let begin = span.start.min(text.len());
+        let line_start = text[..begin].rfind('\n').map_or(0, |at| at + 1).max(*start);
+        let line_end = text[begin..].find('\n').map_or(text.len(), |at| begin + at);
+        let end = span.end.clamp(begin, line_end);
+        Box::new(Place {
+            source: name.clone(),
+            line: (*start == 0).then(|| 1 + text[..begin].matches('\n').count()),
+            text: text[line_start..line_end].trim_end().to_owned(),
+            column: text[line_start..begin].chars().count(),
+            width: text[begin..end].chars().count().max(1),
+        })
+    }
+
+    fn error(&self, error: &Error, swept: Option<String>) -> ConfigError {
+        let place = self.place(error.span().unwrap_or(0..0));
+        // The reader breaks some of its messages into lines.
+        let message = error.message().lines().collect::<Vec<_>>().join(", ");
+        ConfigError::Toml { place, message, swept }
+    }
+}
+
+/// A swept key with its values.
+pub(super) type Axis<'a> = (String, Vec<Spanned<DeValue<'a>>>);
+
+/// A config as a tree of TOML values that know where they stand.
+#[derive(Clone, Debug)]
+pub struct Document<'a> {
+    sources: &'a Sources,
+    root: Spanned<DeTable<'a>>,
+    /// Dotted keys that a sweep or `--set` gave, with the places of their values.
+    assigned: Vec<(String, Range<usize>)>,
+}
+
+impl<'a> Document<'a> {
+    /// The table `name`, or its default where it is absent.
+    ///
+    /// # Errors
+    /// Unknown keys, wrong values, missing keys.
+    pub fn table<T: DeserializeOwned>(&self, name: &str) -> Result<T, ConfigError> {
+        if let Some(table) = self.optional(name)? {
+            return Ok(table);
+        }
+        let empty = ValueDeserializer::from(Spanned::new(0..0, DeValue::Table(DeTable::new())));
+        T::deserialize(empty).map_err(|error| ConfigError::Missing {
+            source_name: self.sources.file().to_owned(),
+            table: name.to_owned(),
+            message: error.message().to_owned(),
+        })
+    }
+
+    /// The value of the top-level key `name`, where it is there.
+    ///
+    /// # Errors
+    /// As [`Document::table`].
+    pub fn optional<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, ConfigError> {
+        let Some(value) = self.root.get_ref().get(name) else { return Ok(None) };
+        let value = T::deserialize(ValueDeserializer::from(value.clone()));
+        value.map(Some).map_err(|error| self.sources.error(&error, self.assigned_at(error.span())))
+    }
+
+    /// Fails unless `name`, which stands at the dotted key `key`, is one of `known`.
+    ///
+    /// # Errors
+    /// [`ConfigError::UnknownName`].
+    pub fn check_name(&self, key: &str, what: &'static str, name: &str, known: &[&str]) -> Result<(), ConfigError> {
+        if known.contains(&name) {
+            return Ok(());
+        }
+        let place = self.sources.place(self.find(key).map_or(0..0, Spanned::span));
+        Err(ConfigError::UnknownName { place, what, name: name.to_owned(), known: known.join(", ") })
+    }
+
+    /// Fails at the first top-level key that is not one of `known`.
+    pub(super) fn check_keys(&self, known: &[&str]) -> Result<(), ConfigError> {
+        let unknown = self.root.get_ref().keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
+        let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
+        let place = self.sources.place(key.span());
+        Err(ConfigError::UnknownKey { place, key: key.get_ref().to_string(), known: known.join(", ") })
+    }
+
+    /// The swept keys in the order of the file, each with its values.
+    pub(super) fn sweep(&self) -> Result<Vec<Axis<'a>>, ConfigError> {
+        let Some(sweep) = self.root.get_ref().get("sweep") else { return Ok(Vec::new()) };
+        let DeValue::Table(table) = sweep.get_ref() else {
+            let place = self.sources.place(sweep.span());
+            return Err(ConfigError::EmptySweep { place, key: "sweep".to_owned() });
+        };
+        let mut axes = leaves(table, &[]);
+        axes.sort_by_key(|(_, value)| value.span().start);
+        let mut swept = Vec::new();
+        for (path, values) in axes {
+            let key = path.join(".");
+            match values.get_ref().as_array() {
+                Some(array) if !array.is_empty() => swept.push((key, array.to_vec())),
+                _ => return Err(ConfigError::EmptySweep { place: self.sources.place(values.span()), key }),
+            }
+        }
+        Ok(swept)
+    }
+
+    /// Puts `value` at the dotted key whose parts are `path`, making the tables that lead there.
+    pub(super) fn assign<S: AsRef<str>>(&mut self, path: &[S], value: Spanned<DeValue<'a>>) -> Result<(), ConfigError> {
+        let span = value.span();
+        let names: Vec<&str> = path.iter().map(S::as_ref).collect();
+        let key = names.join(".");
+        let Some((last, path)) = names.split_last() else { return Ok(()) };
+        let mut table = self.root.get_mut();
+        for name in path {
+            let fresh = || Spanned::new(span.clone(), DeValue::Table(DeTable::new()));
+            let at = (*name).to_owned();
+            table = match table.entry(Spanned::new(span.clone(), at.clone().into())).or_insert_with(fresh).get_mut() {
+                DeValue::Table(inner) => inner,
+                _ => return Err(ConfigError::NoTable { place: self.sources.place(span), key, at }),
+            };
+        }
+        table.insert(Spanned::new(span.clone(), (*last).to_owned().into()), value);
+        self.assigned.push((key, span));
+        Ok(())
+    }
+
+    pub(super) fn remove(&mut self, name: &str) {
+        self.root.get_mut().remove(name);
+    }
+
+    /// The whole tree as JSON.
+    pub(super) fn to_json(&self) -> Result<serde_json::Value, ConfigError> {
+        let root = Spanned::new(self.root.span(), DeValue::Table(self.root.get_ref().clone()));
+        serde_json::Value::deserialize(ValueDeserializer::from(root)).map_err(|e| self.sources.error(&e, None))
+    }
+
+    pub(super) fn file(&self) -> &str {
+        self.sources.file()
+    }
+
+    fn find(&self, key: &str) -> Option<&Spanned<DeValue<'a>>> {
+        let mut names = key.split('.');
+        let mut value = self.root.get_ref().get(names.next()?)?;
+        for name in names {
+            value = value.get_ref().as_table()?.get(name)?;
+        }
+        Some(value)
+    }
+
+    fn assigned_at(&self, span: Option<Range<usize>>) -> Option<String> {
+        let span = span?;
+        let holds = |given: &Range<usize>| given.start <= span.start && span.end <= given.end;
+        self.assigned.iter().rfind(|(_, given)| holds(given)).map(|(key, _)| key.clone())
+    }
+}
+
+/// Everything in `table` that is no table itself, or an empty one, with the names that lead there.
+fn leaves<'a>(table: &DeTable<'a>, path: &[String]) -> Vec<(Vec<String>, Spanned<DeValue<'a>>)> {
+    let mut found = Vec::new();
+    for (name, value) in table.iter() {
+        let path = [path, &[name.get_ref().to_string()]].concat();
+        match value.get_ref() {
+            DeValue::Table(inner) if !inner.is_empty() => found.extend(leaves(inner, &path)),
+            _ => found.push((path, value.clone())),
+        }
+    }
+    found
+}

@@ -1,0 +1,200 @@
+use std::fmt;
+use std::path::PathBuf;
+
+use crate::figure::FigureError;
+use crate::input::InputError;
+use crate::io::WriteError;
+use crate::libigl::LibiglError;
+use crate::map::MapError;
+use crate::verify::VerifyError;
+
+/// Where in a config, or in which `--set`, something stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Path of the config; `--set key=value`.
+    pub source: String,
+    /// Line, from 1; `None` for what was given with `--set`.
+    pub line: Option<usize>,
+    /// The text of that line.
+    pub text: String,
+    /// First character of the offender in `text`, from 0.
+    pub column: usize,
+    /// Its length in characters; at least 1.
+    pub width: usize,
+}
+
+/// `file:line`.
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "{}:{line}", self.source),
+            None => f.write_str(&self.source),
+        }
+    }
+}
+
+impl Place {
+    /// The line with carets below the offender.
+    fn excerpt(&self) -> String {
+        let number = self.line.map(|line| line.to_string()).unwrap_or_default();
+        let (gutter, shift) = (number.len(), self.column);
+        format!("{number} | {}\n{:gutter$} | {:shift$}{}", self.text, "", "", "^".repeat(self.width))
+    }
+}
+
+/// A config that cannot be taken as it stands.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// The file is not to be had.
+    #[error("{}: the config cannot be read", path.display())]
+    Read {
+        /// Its path.
+        path: PathBuf,
+        /// The system's word.
+        source: std::io::Error,
+    },
+    /// No TOML, an unknown key, a value of the wrong type, an unknown name: as the TOML reader says it.
+    #[error("{place}: {}{message}\n{}", swept.as_ref().map(|key| format!("`{key}`: ")).unwrap_or_default(), place.excerpt())]
+    Toml {
+        /// Where.
+        place: Box<Place>,
+        /// What is wrong, and what is known.
+        message: String,
+        /// The key, where a sweep or `--set` gave the value.
+        swept: Option<String>,
+    },
+    /// A top-level key that this kind of experiment does not have.
+    #[error("{place}: unknown key `{key}`; known: {known}\n{}", place.excerpt())]
+    UnknownKey {
+        /// Where.
+        place: Box<Place>,
+        /// The key.
+        key: String,
+        /// The keys there are.
+        known: String,
+    },
+    /// A value that is none of the names it could be.
+    #[error("{place}: unknown {what} `{name}`; known: {known}\n{}", place.excerpt())]
+    UnknownName {
+        /// Where.
+        place: Box<Place>,
+        /// What it names.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A table that the kind needs.
+    #[error("{source_name}: the table [{table}] is missing or incomplete: {message}")]
+    Missing {
+        /// Path of the config.
+        source_name: String,
+        /// Name of the table.
+        table: String,
+        /// What the TOML reader misses in it.
+        message: String,
+    },
+    /// A dotted key that leads through something that is no table.
+    #[error("{place}: `{key}` cannot be set: `{at}` is no table\n{}", place.excerpt())]
+    NoTable {
+        /// Where.
+        place: Box<Place>,
+        /// The dotted key.
+        key: String,
+        /// The part that is no table.
+        at: String,
+    },
+    /// A swept key without values.
+    #[error("{place}: `{key}` needs an array of one value or more to be swept over\n{}", place.excerpt())]
+    EmptySweep {
+        /// Where.
+        place: Box<Place>,
+        /// The dotted key.
+        key: String,
+    },
+    /// A cartesian product out of hand.
+    #[error("{source_name}: the sweep makes more than {limit} runs")]
+    TooManyRuns {
+        /// Path of the config.
+        source_name: String,
+        /// How many are allowed.
+        limit: usize,
+    },
+    /// No `key=value`.
+    #[error("--set {text}: expected key=value, for example --set map.dual=circumcentre")]
+    Set {
+        /// What was given.
+        text: String,
+    },
+    /// A file name that cannot name a folder of results.
+    #[error("{}: the config's file name must be UTF-8 with a name before .toml, which names its results", path.display())]
+    Name {
+        /// The path.
+        path: PathBuf,
+    },
+}
+
+/// A run that ended without a result; its text goes into the record.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// No surface.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// No map.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// No comparison.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
+    /// No libigl.
+    #[error(transparent)]
+    Libigl(#[from] LibiglError),
+    /// No picture.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// A result that is no JSON.
+    #[error("the result cannot be written as JSON")]
+    Json(#[from] serde_json::Error),
+}
+
+/// Results that cannot be written or summed up.
+#[derive(Debug, thiserror::Error)]
+pub enum ResultsError {
+    /// No folder.
+    #[error("{}: the folder cannot be made", path.display())]
+    Folder {
+        /// Its path.
+        path: PathBuf,
+        /// The system's word.
+        source: std::io::Error,
+    },
+    /// No file.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A record that cannot be encoded.
+    #[error("a record cannot be written as JSON")]
+    Json(#[from] serde_json::Error),
+    /// A key in `[table]`, `[plots]` or `[expect]` that no record has.
+    #[error("{config}: `{key}` in [{table}] is in no record; records have: {known}")]
+    UnknownKey {
+        /// Path of the config.
+        config: String,
+        /// The dotted key.
+        key: String,
+        /// Where it stands.
+        table: String,
+        /// The keys that records have.
+        known: String,
+    },
+    /// A plot that cannot be drawn.
+    #[error("{config}: plot `{plot}` cannot be drawn")]
+    Plot {
+        /// Path of the config.
+        config: String,
+        /// Its name.
+        plot: String,
+        /// Why.
+        source: FigureError,
+    },
+}

@@ -1,0 +1,153 @@
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::{ConfigError, Document, Kind, RunError, Task, Yield};
+use crate::backend::solver_names;
+use crate::distortion::{face_maps, quasi_conformal_errors};
+use crate::figure::{FigureError, FlatMap, Format};
+use crate::input::{Input, InputError};
+use crate::map::{self, MapOptions, Mapped};
+use crate::quad_graph::dual::DUAL_POINTS;
+use crate::report::Report;
+use crate::stopwatch::Stopwatch;
+
+/// One surface, one map; the result is its [`Report`].
+pub(super) struct MapKind;
+
+/// `[surface]`: what is mapped.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SurfaceSpec {
+    /// A mesh file or the name of a generated surface.
+    source: String,
+    /// Parameters of a generated surface beside those in its name, so that they can be swept.
+    #[serde(default)]
+    parameters: BTreeMap<String, Value>,
+}
+
+/// `[solver]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct SolverSpec {
+    name: Option<String>,
+    tolerance: Option<f64>,
+    max_iterations: Option<usize>,
+}
+
+/// `[figures]`: pictures of each run.
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct FigureSpec {
+    /// The map flat, coloured by quasi-conformal error.
+    flat: bool,
+}
+
+struct MapTask {
+    title: String,
+    surface: SurfaceSpec,
+    options: MapOptions,
+    figures: FigureSpec,
+}
+
+impl Kind for MapKind {
+    fn name(&self) -> &'static str {
+        "map"
+    }
+
+    fn description(&self) -> &'static str {
+        "one map, measured as `riemap map --report` does"
+    }
+
+    fn tables(&self) -> &'static [&'static str] {
+        &["surface", "map", "solver", "figures"]
+    }
+
+    fn columns(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("result.input.vertices", "vertices"),
+            ("result.input.faces", "faces"),
+            ("result.solver.backend", "backend"),
+            ("result.solver.iterations", "iterations"),
+            ("result.energy.total", "energy"),
+            ("result.energy.H", "H"),
+            ("result.distortion.quasi_conformal.mean", "σ₁/σ₂, mean"),
+            ("result.distortion.quasi_conformal.max", "σ₁/σ₂, max"),
+            ("result.distortion.flipped", "flipped"),
+            ("timings.total", "seconds"),
+        ]
+    }
+
+    fn task(&self, config: &Document) -> Result<Box<dyn Task>, ConfigError> {
+        let mut options: MapOptions = config.table("map")?;
+        let duals: Vec<&str> = DUAL_POINTS.iter().map(|dual| dual.name()).collect();
+        config.check_name("map.dual", "dual point", &options.dual, &duals)?;
+        if let Some(solver) = config.optional::<SolverSpec>("solver")? {
+            options.solver = solver.name.unwrap_or(options.solver);
+            options.tolerance = solver.tolerance.unwrap_or(options.tolerance);
+            options.max_iterations = solver.max_iterations.or(options.max_iterations);
+        }
+        config.check_name("solver.name", "solver", &options.solver, &solver_names())?;
+        Ok(Box::new(MapTask {
+            title: config.optional("title")?.unwrap_or_default(),
+            surface: config.table("surface")?,
+            options,
+            figures: config.table("figures")?,
+        }))
+    }
+}
+
+impl Task for MapTask {
+    fn run(&self) -> Result<Yield, RunError> {
+        let mut watch = Stopwatch::start();
+        let input = self.surface.open()?;
+        let mapped = map::run(&input, &self.options, &mut watch)?;
+        let seconds = watch.seconds();
+        let mut result = serde_json::to_value(Report::new(&input, &mapped, seconds))?;
+        // Timings have a place of their own in the record.
+        if let Some(solver) = result.get_mut("solver").and_then(Value::as_object_mut) {
+            solver.remove("seconds");
+        }
+        let mut pictures = Vec::new();
+        if self.figures.flat {
+            for format in [Format::Png, Format::Svg] {
+                pictures.push((format, flat_map(&mapped, &self.title, format)?));
+            }
+        }
+        Ok(Yield { result, timings: serde_json::to_value(seconds)?, pictures, ..Yield::default() })
+    }
+}
+
+impl SurfaceSpec {
+    /// The surface.
+    pub(super) fn open(&self) -> Result<Input, InputError> {
+        let mut source = self.source.clone();
+        for (name, value) in &self.parameters {
+            source.push(if source.contains('?') { '&' } else { '?' });
+            let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+            source.push_str(&format!("{name}={value}"));
+        }
+        Input::open(&source)
+    }
+}
+
+/// The map flat, faces coloured by quasi-conformal error.
+///
+/// # Errors
+/// A map that cannot be drawn.
+pub fn flat_map(mapped: &Mapped, title: &str, format: Format) -> Result<Vec<u8>, FigureError> {
+    let Mapped { disc, graph, map, .. } = mapped;
+    let maps = face_maps(disc, graph, &map.z);
+    let points: Vec<[f64; 2]> = map.z[..graph.primal].iter().map(|z| [z.re, z.im]).collect();
+    let flipped: Vec<usize> = (0..maps.len()).filter(|&f| !maps[f].positive).collect();
+    let picture = FlatMap {
+        points: &points,
+        faces: &disc.faces,
+        values: &quasi_conformal_errors(&disc.faces, &maps),
+        flipped: &flipped,
+        title,
+        scale_label: "quasi-conformal error σ₁/σ₂",
+    };
+    picture.render(format)
+}

@@ -1,0 +1,89 @@
+//! Experiments: one TOML file per claim, study or figure; one JSON record per run; tables and plots made of records alone.
+//!
+//! A config names what is run once (`[surface]`, `[map]`, …), what is varied (`[sweep]`: the cartesian product over dotted
+//! keys), what must come out (`[expect]`) and what is shown (`[table]`, `[plots.NAME]`). Any key can be set from outside
+//! ([`Config::load`]). Keys of records are dotted too: `config.map.dual`, `result.distortion.flipped`, `timings.total`.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `document.rs` | TOML that knows its lines; setting dotted keys; errors with line and caret |
+//! | `config.rs` | [`Config`]: a file made into [`Run`]s; [`Shard`]s of them |
+//! | `expect.rs` | bounds on results |
+//! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
+//! | `run.rs` | runs → records in a folder |
+//! | `summary.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
+//! | `map.rs`, `cotan.rs` | the kinds of experiment, rows of [`KINDS`] |
+//! | `repository.rs` | where experiments and results lie; the revision of the program |
+//!
+//! Everything but `timings` and `versions` of a record is the same on every run of the same program, bit for bit.
+
+mod chart;
+mod config;
+mod cotan;
+mod document;
+mod error;
+mod expect;
+mod map;
+mod record;
+mod repository;
+mod run;
+mod summary;
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+pub use chart::{AxisSpec, PlotSpec, ReferenceSpec, SeriesSpec};
+pub use config::{Column, Config, Run, Shard};
+pub use document::Document;
+pub use error::{ConfigError, Place, ResultsError, RunError};
+pub use expect::Bound;
+pub use map::flat_map;
+pub use record::{Outcome, Record};
+pub use repository::{find_experiments, revision};
+pub use run::{Progress, run};
+pub use summary::{Summary, summarise, table};
+
+use crate::figure::Format;
+
+/// A kind of experiment: what one run of it does.
+pub trait Kind: Sync {
+    /// What a config says as `kind`.
+    fn name(&self) -> &'static str;
+    /// One line.
+    fn description(&self) -> &'static str;
+    /// The top-level tables of its configs, beside those that all kinds have.
+    fn tables(&self) -> &'static [&'static str];
+    /// Columns of its table where a config does not choose: dotted key of the record, heading.
+    fn columns(&self) -> &'static [(&'static str, &'static str)];
+    /// One run, from a config without sweep.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the config; nothing is computed yet.
+    fn task(&self, config: &Document) -> Result<Box<dyn Task>, ConfigError>;
+}
+
+/// One run, ready to be made.
+pub trait Task {
+    /// Makes it.
+    ///
+    /// # Errors
+    /// Why there is no result; the text goes into the record.
+    fn run(&self) -> Result<Yield, RunError>;
+}
+
+/// What a run yields.
+#[derive(Clone, Debug, Default)]
+pub struct Yield {
+    /// The same on every run.
+    pub result: Value,
+    /// Seconds.
+    pub timings: Value,
+    /// Versions of other programs that took part.
+    pub versions: BTreeMap<String, String>,
+    /// Pictures of the run, by format.
+    pub pictures: Vec<(Format, Vec<u8>)>,
+}
+
+/// Every kind of experiment; the first is the default.
+pub static KINDS: &[&dyn Kind] = &[&map::MapKind, &cotan::CotanKind];

@@ -1,0 +1,83 @@
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// With a result, as expected.
+    Done,
+    /// With a result that `[expect]` excludes.
+    Refuted,
+    /// Without a result.
+    Failed,
+}
+
+/// What one run leaves behind: a JSON file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Name of the config.
+    pub experiment: String,
+    /// Name of the run within it: the swept values.
+    pub run: String,
+    /// The config as resolved: swept values and settings from outside in their places.
+    pub config: Value,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Why it failed or is refuted.
+    pub error: Option<String>,
+    /// What came out; null if nothing.
+    pub result: Value,
+    /// Seconds. Differ from run to run.
+    pub timings: Value,
+    /// Versions of what took part: `riemap`, its git `revision`, others.
+    pub versions: BTreeMap<String, String>,
+}
+
+impl Record {
+    /// Whether both say the same of the same: everything but timings and versions.
+    pub fn same_numbers(&self, other: &Record) -> bool {
+        let plain = |r: &Record| Record { timings: Value::Null, versions: BTreeMap::new(), ..r.clone() };
+        plain(self) == plain(other)
+    }
+
+    /// The value at a dotted key: `config.…`, `result.…`, `timings.…`, or `run`, `outcome`, `error`.
+    pub fn get(&self, key: &str) -> Option<Value> {
+        let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
+        let whole = match first {
+            "config" => &self.config,
+            "result" => &self.result,
+            "timings" => &self.timings,
+            "run" => return Some(self.run.clone().into()),
+            "error" => return Some(self.error.clone().into()),
+            "outcome" => return serde_json::to_value(self.outcome).ok(),
+            _ => return None,
+        };
+        let mut value = whole;
+        for name in rest.into_iter().flat_map(|rest| rest.split('.')) {
+            value = value.get(name)?;
+        }
+        Some(value.clone())
+    }
+
+    /// All dotted keys below `config`, `result` and `timings` that have a value.
+    pub fn keys(&self) -> Vec<String> {
+        fn collect(value: &Value, key: String, keys: &mut Vec<String>) {
+            match value {
+                Value::Object(fields) => {
+                    fields.iter().for_each(|(name, field)| collect(field, format!("{key}.{name}"), keys));
+                }
+                _ => keys.push(key),
+            }
+        }
+        let mut keys = Vec::new();
+        for (name, part) in [("config", &self.config), ("result", &self.result), ("timings", &self.timings)] {
+            if part.is_object() {
+                collect(part, name.to_owned(), &mut keys);
+            }
+        }
+        keys
+    }
+}

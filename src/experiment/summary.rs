@@ -1,0 +1,134 @@
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::run::{make, write_figure};
+use super::{Config, Outcome, Record, ResultsError};
+use crate::figure::Format;
+use crate::io::atomically;
+
+/// What has been made of the records of a config.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// The records that there are, in the order of the runs. Records of other settings do not count.
+    pub records: Vec<Record>,
+    /// Tables and plots written.
+    pub files: Vec<PathBuf>,
+}
+
+/// Sums up the records that `results` has of `config`'s runs, whichever shards they are from: `<config>/table.md` with
+/// everything that is the same on every run, `<config>/timings.md`, and the plots in `figures/`.
+///
+/// # Errors
+/// A key that no record has; a plot or file that cannot be made.
+pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsError> {
+    let folder = results.join(&config.name);
+    make(&folder)?;
+    let stored = config.runs.iter().filter_map(|run| {
+        let text = fs::read_to_string(folder.join(format!("{}.json", run.name))).ok()?;
+        serde_json::from_str::<Record>(&text).ok().filter(|record| record.config == run.config)
+    });
+    let records: Vec<Record> = stored.collect();
+    check_keys(config, &records)?;
+    let mut files = Vec::new();
+    for (name, timings) in [("table.md", false), ("timings.md", true)] {
+        if let Some(text) = table(config, &records, timings) {
+            let path = folder.join(name);
+            atomically(&path, |out| out.write_all(text.as_bytes()))?;
+            files.push(path);
+        }
+    }
+    let finished = records.iter().any(|record| !record.result.is_null());
+    for (name, spec) in config.plots.iter().filter(|_| finished) {
+        for format in [Format::Png, Format::Svg] {
+            let failed = |source| ResultsError::Plot { config: config.path.clone(), plot: name.clone(), source };
+            let bytes = spec.plot(&records).render(format).map_err(failed)?;
+            files.push(write_figure(results, &format!("{}-{name}", config.name), format, &bytes)?);
+        }
+    }
+    Ok(Summary { records, files })
+}
+
+/// A misspelt key must not become an empty column or plot. Without a single result there is nothing to check against.
+fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
+    let finished: Vec<&Record> = records.iter().filter(|record| !record.result.is_null()).collect();
+    let Some(example) = finished.first() else { return Ok(()) };
+    let columns = config.columns.iter().map(|column| (&column.key, "table".to_owned()));
+    let plots = config.plots.iter().flat_map(|(name, p)| p.keys().map(move |key| (key, format!("plots.{name}"))));
+    for (key, table) in columns.chain(plots) {
+        if finished.iter().all(|record| record.get(key).is_none()) {
+            let part = key.split('.').next().unwrap_or(key);
+            let known: Vec<String> = example.keys().into_iter().filter(|known| known.starts_with(part)).collect();
+            let known =
+                if known.is_empty() { "config.…, result.…, timings.…".to_owned() } else { known.join(", ") };
+            return Err(ResultsError::UnknownKey { config: config.path.clone(), key: key.clone(), table, known });
+        }
+    }
+    Ok(())
+}
+
+/// The records as Markdown; `timings`: the columns that differ from run to run instead of the others. `None` if there are
+/// none of these.
+pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<String> {
+    let is_timing = |key: &str| key.starts_with("timings.");
+    let columns: Vec<_> = config.columns.iter().filter(|column| is_timing(&column.key) == timings).collect();
+    if columns.is_empty() && timings {
+        return None;
+    }
+    let heading = |key: &String| key.rsplit('.').next().unwrap_or(key).to_owned();
+    let mut headings: Vec<String> = config.swept.iter().map(heading).collect();
+    headings.extend(columns.iter().map(|column| column.label.clone()));
+    if !timings {
+        headings.push("outcome".to_owned());
+    }
+    let mut text = format!("# {}\n\n", config.title);
+    if !config.claim.is_empty() {
+        let _ = writeln!(text, "{}\n", config.claim);
+    }
+    if timings {
+        text.push_str("Measured on the machine that made these results; they differ from run to run.\n\n");
+    }
+    if records.len() < config.runs.len() {
+        let _ = writeln!(text, "{} of {} runs.\n", records.len(), config.runs.len());
+    }
+    let _ = writeln!(text, "| {} |\n|{}", headings.join(" | "), " --: |".repeat(headings.len()));
+    for record in records {
+        let keys = config.swept.iter().map(|key| format!("config.{key}"));
+        let keys = keys.chain(columns.iter().map(|column| column.key.clone()));
+        let mut cells: Vec<String> =
+            keys.map(|key| record.get(&key).as_ref().map(number).unwrap_or_default()).collect();
+        if !timings {
+            cells.push(match (&record.outcome, &record.error) {
+                (Outcome::Done, _) => "done".to_owned(),
+                (outcome, error) => format!("{outcome:?}: {}", error.as_deref().unwrap_or_default()).to_lowercase(),
+            });
+        }
+        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|").replace('\n', " ")).collect();
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    }
+    Some(text)
+}
+
+/// Numbers to four digits, everything else as it is.
+pub(super) fn number(value: &Value) -> String {
+    match value {
+        Value::Null => "–".to_owned(),
+        Value::String(text) => text.clone(),
+        Value::Number(n) if n.is_f64() => four_digits(n.as_f64().unwrap_or(f64::NAN)),
+        other => other.to_string(),
+    }
+}
+
+fn four_digits(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e5).contains(&x.abs()) {
+        return format!("{x:.2e}");
+    }
+    let decimals = (3 - x.abs().log10().floor() as i32).max(0) as usize;
+    let text = format!("{x:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
