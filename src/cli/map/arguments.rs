@@ -1,0 +1,198 @@
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use anyhow::{Result, bail};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use riemap::backend::solver_names;
+use riemap::constraint::Shape;
+use riemap::energy::Expression;
+use riemap::energy::conformal::Weight;
+use riemap::io::read_positions;
+use riemap::map::{Boundary, Hold, MapOptions, Pin};
+use riemap::quad_graph::RhoSource;
+use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
+
+use crate::cli::by_name;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// A mesh file (.obj .off .ply .stl), or a generated surface such as `graph:cos+cos?n=33`
+    #[arg(value_name = "MESH")]
+    pub(super) mesh: String,
+    /// Write the mesh with the map as texture coordinates (.obj, .ply)
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// What the boundary does. circle: H + C; free: H + L', its lengths kept; fixed: H, boundary held on --shape
+    /// [default: circle]
+    #[arg(long, value_parser = by_name::<Boundary>)]
+    pub(super) boundary: Option<Boundary>,
+    /// Energy, in place of the one of --boundary: terms H C A L Lb (L' is Lb) with coefficients, as in "H + 0.5 L + A"
+    #[arg(long, value_name = "E", value_parser = Expression::from_str)]
+    pub(super) energy: Option<Expression>,
+    /// What a fixed boundary is laid on, by arc length: circle, square [default: circle]
+    #[arg(long, value_parser = by_name::<Shape>, conflicts_with = "positions")]
+    pub(super) shape: Option<Shape>,
+    /// Hold vertices at the places of a file of lines `vertex x y` (vertices from 0), in place of --shape
+    #[arg(long, value_name = "FILE")]
+    pub(super) positions: Option<PathBuf>,
+    /// Hold a vertex (from 0) at a place; repeatable. Beside a fixed boundary; in place of --fix for the circle
+    #[arg(long, value_name = "V=X,Y", value_parser = pin, allow_hyphen_values = true)]
+    pub(super) pin: Vec<Pin>,
+    /// Boundary vertices held: whole (least squares), or primal (those of the mesh and one dual vertex: a square system)
+    /// [default: whole; with circumcentres primal]
+    #[arg(long, value_name = "WHICH", value_parser = by_name::<Hold>)]
+    pub(super) hold: Option<Hold>,
+    /// How many boundary points a circle map holds: 3, or 2 as in the paper [default: 3]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=3))]
+    pub(super) fix: Option<u8>,
+    /// Circle maps: keep the boundary points in order
+    #[arg(long)]
+    pub(super) keep_order: bool,
+    /// Weights of the energies: integral (converge under refinement), unit (the paper's)
+    #[arg(long, default_value = "integral", value_parser = by_name::<Weight>)]
+    pub(super) weight: Weight,
+    /// Dual point of triangle meshes
+    #[arg(long, default_value = "barycentre", value_parser = PossibleValuesParser::new(DUAL_POINTS.iter().map(|d| d.name())))]
+    pub(super) dual: String,
+    /// Dual vertex of boundary edges: midpoint, foot (of the perpendicular from the dual point)
+    #[arg(long, default_value = "midpoint", value_parser = by_name::<BoundaryDual>)]
+    pub(super) boundary_dual: BoundaryDual,
+    /// What ρ of quad meshes comes from: positions, normals (those of the file)
+    #[arg(long, default_value = "positions", value_parser = by_name::<RhoSource>)]
+    pub(super) rho: RhoSource,
+    /// Backend; see `riemap list`
+    #[arg(long, default_value = "auto", value_parser = PossibleValuesParser::new(solver_names()))]
+    pub(super) solver: String,
+    /// Nonlinear maps: converged when the energy's gradient is at most T times that of the start [default: 1e-10]
+    #[arg(long, value_name = "T", value_parser = tolerance)]
+    pub(super) tolerance: Option<f64>,
+    /// Nonlinear maps: stop after N iterations and write what is reached [default: the solver's own number]
+    #[arg(long, value_name = "N")]
+    pub(super) max_iterations: Option<usize>,
+    /// Write energy, its terms, gradient, step and seconds of every iteration as CSV
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) trace: Option<PathBuf>,
+    /// Write system (2) as a complex matrix in Matrix Market format
+    #[arg(long, value_name = "FILE.mtx")]
+    pub(super) system: Option<PathBuf>,
+    /// Write all figures of the run as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) report: Option<PathBuf>,
+    /// Draw the map, coloured by quasi-conformal error (.png, .svg)
+    #[arg(long, value_name = "FILE")]
+    pub(super) picture: Option<PathBuf>,
+    /// Print warnings and errors alone
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+}
+
+impl Arguments {
+    /// The files to be written.
+    pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
+        [&self.output, &self.system, &self.report, &self.picture, &self.trace]
+            .into_iter()
+            .flatten()
+            .map(PathBuf::as_path)
+    }
+}
+
+/// Fails where options contradict each other.
+fn refuse_contradictions(arguments: &Arguments, options: &MapOptions) -> Result<()> {
+    let fixed = options.boundary == Boundary::Fixed;
+    for (given, name) in [
+        (arguments.shape.is_some(), "--shape"),
+        (arguments.positions.is_some(), "--positions"),
+        (arguments.hold.is_some(), "--hold"),
+    ] {
+        if given && !fixed {
+            bail!("{name} says where a fixed boundary is held: use it with --boundary fixed");
+        }
+    }
+    if arguments.trace.is_some() && is_linear(options) {
+        bail!("--trace is for nonlinear maps; H with a fixed boundary is solved directly");
+    }
+    let mut pinned: Vec<u32> = arguments.pin.iter().map(|pin| pin.vertex).collect();
+    pinned.sort_unstable();
+    if let Some(twice) = pinned.windows(2).find(|pair| pair[0] == pair[1]) {
+        bail!("vertex {} is pinned twice: one place is enough", twice[0]);
+    }
+    Ok(())
+}
+
+/// Whether one linear solve makes the map.
+fn is_linear(options: &MapOptions) -> bool {
+    options.boundary == Boundary::Fixed && options.expression().terms.iter().all(|term| term.name == "H")
+}
+
+/// Options that were given and change nothing, each with the reason.
+pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, triangles: bool) -> Vec<&'static str> {
+    let circle = options.expression().has("C") && options.boundary != Boundary::Fixed;
+    let linear = is_linear(options);
+    let idle = [
+        (arguments.boundary == Some(Boundary::Free) && circle, "--boundary free has no effect: the energy has C"),
+        (
+            arguments.boundary == Some(Boundary::Circle) && !circle,
+            "--boundary circle has no effect: the energy has no C",
+        ),
+        (arguments.fix.is_some() && !circle, "--fix has no effect: this is no circle map"),
+        (arguments.fix.is_some() && circle && !options.pins.is_empty(), "--fix has no effect: pins take its place"),
+        (arguments.tolerance.is_some() && linear, "--tolerance has no effect: the map is solved directly"),
+        (arguments.max_iterations.is_some() && linear, "--max-iterations has no effect: the map is solved directly"),
+        (options.dual != "barycentre" && !triangles, "--dual has no effect on a quad mesh"),
+        (
+            options.boundary_dual != BoundaryDual::default() && !triangles,
+            "--boundary-dual has no effect on a quad mesh",
+        ),
+    ];
+    idle.into_iter().filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()
+}
+
+/// Parses a tolerance.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t < 1.0);
+    number.ok_or_else(|| "expected a number between 0 and 1".to_owned())
+}
+
+/// Parses `V=X,Y`.
+fn pin(text: &str) -> Result<Pin, String> {
+    let parse = || {
+        let (vertex, place) = text.split_once('=')?;
+        let (x, y) = place.split_once(',')?;
+        let number = |s: &str| s.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+        Some(Pin { vertex: vertex.trim().parse().ok()?, place: [number(x)?, number(y)?] })
+    };
+    parse().ok_or_else(|| "expected V=X,Y with a vertex index from 0 and two finite numbers".to_owned())
+}
+
+/// What the arguments ask of the library.
+pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
+    let positions = match &arguments.positions {
+        None => None,
+        Some(path) => {
+            let pins = read_positions(path)?.into_iter().map(|(vertex, place)| Pin { vertex, place });
+            Some(pins.collect())
+        }
+    };
+    let defaults = MapOptions::default();
+    let options = MapOptions {
+        boundary: arguments.boundary.unwrap_or_default(),
+        energy: arguments.energy.clone(),
+        fix: arguments.fix.map_or(defaults.fix, usize::from),
+        keep_order: arguments.keep_order,
+        tolerance: arguments.tolerance.unwrap_or(defaults.tolerance),
+        max_iterations: arguments.max_iterations,
+        shape: arguments.shape.unwrap_or_default(),
+        positions,
+        pins: arguments.pin.clone(),
+        hold: arguments.hold,
+        weight: arguments.weight,
+        dual: arguments.dual.clone(),
+        boundary_dual: arguments.boundary_dual,
+        rho: arguments.rho,
+        solver: arguments.solver.clone(),
+    };
+    refuse_contradictions(arguments, &options)?;
+    Ok(options)
+}

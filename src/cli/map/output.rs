@@ -1,0 +1,111 @@
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::{Result, bail};
+
+use riemap::backend::Iteration;
+use riemap::experiment::flat_map;
+use riemap::figure::Format;
+use riemap::input::Input;
+use riemap::io::{Staged, Uv, can_be_written, stage, stage_mesh, writable, write_matrix_market};
+use riemap::map::{Map, Mapped};
+use riemap::problem::system;
+use riemap::report::Report;
+use riemap::stopwatch::Traced;
+use riemap::surface::disc::Disc;
+
+use super::arguments::Arguments;
+
+pub(super) fn draw(mapped: &Mapped, record: &Report, format: Format) -> Result<Vec<u8>> {
+    let name = Path::new(&record.input.path).file_name().map(|name| name.to_string_lossy());
+    let title = format!("{}: {} faces", name.unwrap_or_default(), record.input.faces);
+    Ok(flat_map(mapped, &title, format)?)
+}
+
+/// Fails where an output cannot be written, or two are to be written to one place.
+pub(super) fn refuse_outputs(arguments: &Arguments) -> Result<()> {
+    if let Some(path) = &arguments.output {
+        writable(path)?;
+    }
+    let outputs: Vec<&Path> = arguments.outputs().collect();
+    for (k, &path) in outputs.iter().enumerate() {
+        can_be_written(path)?;
+        if outputs[..k].contains(&path) {
+            bail!("two outputs have the same name, {}: each needs its own", path.display());
+        }
+    }
+    Ok(())
+}
+
+/// Writes all outputs, or none.
+pub(super) fn write_all(
+    arguments: &Arguments,
+    input: &Input,
+    mapped: &Mapped,
+    record: &Report,
+    picture: Option<Vec<u8>>,
+    trace: &[Traced],
+) -> Result<()> {
+    let Mapped { disc, graph, map, .. } = mapped;
+    let mut staged: Vec<Staged> = Vec::new();
+    if let Some(path) = &arguments.output {
+        let mut uv = vec![[0.0; 2]; input.surface.positions.len()];
+        for (&v, z) in disc.source_vertex.iter().zip(&map.z) {
+            uv[v as usize] = [z.re, z.im];
+        }
+        staged.push(stage_mesh(path, &input.surface, input.vertex_text.as_ref(), Some(Uv::PerVertex(&uv)))?);
+    }
+    if let Some(path) = &arguments.system {
+        let comments = system_comments(record, disc, map);
+        staged.push(stage(path, |out| write_matrix_market(out, &system(graph), &comments))?);
+    }
+    if let Some(path) = &arguments.report {
+        let json = serde_json::to_string_pretty(record)?;
+        staged.push(stage(path, |out| writeln!(out, "{json}"))?);
+    }
+    if let (Some(path), Some(bytes)) = (&arguments.picture, picture) {
+        staged.push(stage(path, |out| out.write_all(&bytes))?);
+    }
+    if let Some(path) = &arguments.trace {
+        staged.push(stage(path, |out| write_trace(out, trace))?);
+    }
+    for file in staged {
+        file.publish()?;
+    }
+    Ok(())
+}
+
+/// What the rows and columns are, and the constraints that make the solution unique.
+fn system_comments(record: &Report, disc: &Disc, map: &Map) -> Vec<String> {
+    let mut comments = vec![
+        format!(
+            "system (2) of {}: z3 - z1 - i rho (z2 - z0) = 0, one row per quad, one column per vertex",
+            record.input.path
+        ),
+        format!(
+            "columns 1 to {} are the vertices of the mesh that faces use, the others dual vertices",
+            disc.positions.len()
+        ),
+        "held vertices (column, Re z, Im z):".to_owned(),
+    ];
+    comments.extend(map.fixed.iter().map(|(v, z)| format!("held {} {:?} {:?}", v + 1, z.re, z.im)));
+    comments
+}
+
+/// One line per iteration; a nonlinear map may have several stages, each from iteration 0.
+fn write_trace(out: &mut dyn Write, trace: &[Traced]) -> std::io::Result<()> {
+    let mut names: Vec<&str> = Vec::new();
+    for name in trace.iter().flat_map(|t| t.iteration.terms.iter().map(|(name, _)| *name)) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    writeln!(out, "iteration,total,{},gradient_norm,step,seconds", names.join(","))?;
+    for Traced { iteration, seconds } in trace {
+        let of = |name: &&str| iteration.terms.iter().find(|(n, _)| n == name).map_or(0.0, |(_, value)| *value);
+        let terms: Vec<String> = names.iter().map(|name| format!("{:?}", of(name))).collect();
+        let Iteration { number, total, gradient_norm, step, .. } = iteration;
+        writeln!(out, "{number},{total:?},{},{gradient_norm:?},{step:?},{seconds:.6}", terms.join(","))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,121 @@
+use std::io::Write;
+
+use anyhow::Result;
+
+use riemap::backend::Status;
+use riemap::map::{MapOptions, Mapped, Outcome};
+use riemap::report::{EnergyRecord, Report};
+
+use crate::cli::plural;
+
+/// Says on the standard error stream where the map is not one-to-one, and what may help.
+pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
+    let Mapped { map, distortion, .. } = mapped;
+    if options.fix == 2 && options.pins.is_empty() && map.on_circle && map.smallest_singular_value.is_some() {
+        eprintln!(
+            "riemap: warning: two fixed points leave a circle map (nearly) free to move: the smallest singular value is \
+             {:.1e}; --fix 3 makes it unique",
+            map.smallest_singular_value.unwrap_or_default()
+        );
+    }
+    match map.outcome {
+        Outcome::Minimised(Status::MaxIterations) => {
+            eprintln!(
+                "riemap: warning: not converged after {} iterations; the map is the best reached",
+                map.iterations
+            );
+        }
+        Outcome::Minimised(Status::Interrupted) => {
+            eprintln!("riemap: warning: interrupted after {} iterations; the map is the best reached", map.iterations);
+        }
+        _ => {}
+    }
+    let triangles = mapped.disc.faces.arity() == Some(3);
+    let mut help: Vec<&str> = Vec::new();
+    help.extend(triangles.then_some("another --dual"));
+    match map.outcome {
+        Outcome::Solved => help.push("another --shape"),
+        Outcome::Minimised(_) if map.on_circle => {
+            help.extend((!options.keep_order).then_some("--keep-order"));
+            help.push("--boundary free");
+        }
+        Outcome::Minimised(_) => help.push("--boundary circle"),
+    }
+    let help = format!("{} may help", help.join(", or "));
+    if let Some(first) = distortion.first_flipped {
+        let faces = plural(distortion.flipped, "face is", "faces are");
+        eprintln!("riemap: warning: the map is not one-to-one: {faces} flipped, the first is face {first}; {help}");
+    }
+    if distortion.not_convex > distortion.flipped {
+        let quads = plural(distortion.not_convex - distortion.flipped, "quad is", "quads are");
+        eprintln!("riemap: warning: {quads} positive but not convex in the map; {help}");
+    }
+    if let Some(count) = distortion.boundary_out_of_order.filter(|&count| count > 0) {
+        let points = plural(count, "boundary point is", "boundary points are");
+        eprintln!("riemap: warning: {points} out of order along the circle; {help}");
+    }
+    if distortion.boundary_crosses {
+        eprintln!("riemap: warning: the boundary of the map crosses or touches itself; {help}");
+    }
+}
+
+/// The summary of a run.
+pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
+    let Report { input, quad_graph, solver, distortion, .. } = record;
+    let (vertices, faces) = (plural(input.vertices, "vertex", "vertices"), plural(input.faces, "face", "faces"));
+    writeln!(out, "{}: {} mesh, {vertices}, {faces}", input.path, input.kind)?;
+    let negative = match quad_graph.negative_rho {
+        0 => String::new(),
+        n => format!(", {n} not positive"),
+    };
+    writeln!(
+        out,
+        "quad graph: {} vertices, {}, {} vertices on the boundary, Re ρ from {:.3e}{negative}",
+        quad_graph.vertices,
+        plural(quad_graph.quads, "quad", "quads"),
+        quad_graph.boundary_vertices,
+        quad_graph.min_re_rho
+    )?;
+    let seconds = &solver.seconds;
+    let how = match (solver.residual, solver.gradient_norm) {
+        (Some(residual), _) => format!("to a relative residual of {residual:.1e}"),
+        (None, gradient) => format!(
+            "{} after {}, |gradient| {:.1e}",
+            if solver.status == "precision" { "converged to rounding" } else { solver.status },
+            plural(solver.iterations, "iteration", "iterations"),
+            gradient.unwrap_or_default()
+        ),
+    };
+    writeln!(
+        out,
+        "{}: {how}; read {:.3} s, assemble {:.3} s, factor {:.3} s, solve {:.3} s",
+        solver.backend, seconds.read, seconds.assemble, seconds.factor, seconds.solve
+    )?;
+    let EnergyRecord { total, H, C, A, L, Lb } = &record.energy;
+    let terms: Vec<String> = [("H", H), ("C", C), ("A", A), ("L", L), ("L'", Lb)]
+        .into_iter()
+        .filter_map(|(name, value)| Some(format!("{name} = {:.6e}", (*value)?)))
+        .collect();
+    if let Some(total) = total {
+        writeln!(out, "energy {total:.6e}: {}", terms.join(", "))?;
+    }
+    if let Some(sigma) = solver.smallest_singular_value {
+        writeln!(out, "smallest singular value of the Jacobian: {sigma:.3e}")?;
+    }
+    if let Some(error) = &record.error {
+        writeln!(out, "distance to the exact map: max {:.3e}, rms {:.3e}", error.max, error.rms)?;
+    }
+    if let Some(error) = &distortion.quasi_conformal {
+        writeln!(
+            out,
+            "quasi-conformal error σ1/σ2: mean {:.5}, by area {:.5}, 99 % {:.5}, max {:.5}",
+            error.mean, error.area_mean, error.p99, error.max
+        )?;
+    }
+    if let Some(area) = &distortion.area {
+        writeln!(out, "area distortion: mean {:.4}, max {:.4}", area.mean, area.max)?;
+    }
+    let simple = if distortion.boundary_crosses { "crosses itself" } else { "is simple" };
+    writeln!(out, "{} flipped; the boundary {simple}", plural(distortion.flipped, "face", "faces"))?;
+    Ok(())
+}

@@ -1,0 +1,55 @@
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+
+use riemap::experiment::{Shard, find_experiments};
+
+use super::run::run_all;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Names of experiments, as in experiments/NAME.toml; without any, all of them
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Folder of the results [default: results beside experiments]
+    #[arg(long, value_name = "FOLDER")]
+    results: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
+    let root = find_experiments().context(
+        "there is no folder `experiments` here, nor where riemap was built: change into a clone of riemap, or use \
+         `riemap run CONFIG.toml`",
+    )?;
+    let experiments = root.join("experiments");
+    let mut paths = configs(&experiments)?;
+    if !arguments.names.is_empty() {
+        let known: Vec<String> = paths.iter().map(|path| name(path)).collect();
+        if let Some(unknown) = arguments.names.iter().find(|name| !known.contains(name)) {
+            bail!("unknown experiment `{unknown}`; {} has: {}", experiments.display(), known.join(", "));
+        }
+        paths.retain(|path| arguments.names.contains(&name(path)));
+    }
+    let results = arguments.results.clone().unwrap_or_else(|| root.join("results"));
+    run_all(&paths, &[], Shard::ALL, &results, out)
+}
+
+fn configs(folder: &Path) -> Result<Vec<PathBuf>> {
+    let unreadable = || format!("{} cannot be read", folder.display());
+    let mut paths = Vec::new();
+    for entry in folder.read_dir().with_context(unreadable)? {
+        paths.push(entry.with_context(unreadable)?.path());
+    }
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    if paths.is_empty() {
+        bail!("{} has no experiments: no file ends in .toml", folder.display());
+    }
+    Ok(paths)
+}
+
+fn name(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
