@@ -1,0 +1,8 @@
+//! The energies against finite differences of each other, and against what they are by name.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod derivatives;
+mod identities;
+mod shared;
