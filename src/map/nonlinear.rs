@@ -59,7 +59,8 @@ pub(super) fn minimise(
         problem.softened_first(backend, &objective, start, rule, watch)?
     } else {
         let minimum = backend.minimise(&objective, start, rule, watch)?;
-        (minimum.clone(), minimum.iterations)
+        let iterations = minimum.iterations;
+        (minimum, iterations)
     };
     accept(backend, &minimum, options)?;
 
@@ -290,7 +291,8 @@ impl Problem<'_> {
         }
         let first = backend.minimise(&soft, start, rule, watch)?;
         if first.status == Status::Interrupted {
-            return Ok((first.clone(), first.iterations));
+            let iterations = first.iterations;
+            return Ok((first, iterations));
         }
         // The second start is next to the end: its own gradient would be no measure.
         let left = rule.max_iterations.map(|n| n.saturating_sub(first.iterations));

@@ -73,11 +73,6 @@ impl<'a> Analysis<'a> {
             Err(LltError::NonPositivePivot { .. }) => Err(Breakdown::NotPositiveDefinite),
         }
     }
-
-    /// Number of values of a factor.
-    pub fn factor_len(&self) -> usize {
-        self.symbolic.len_val()
-    }
 }
 
 impl<T: ComplexField> Cholesky<'_, T> {

@@ -18,10 +18,6 @@ impl Minimiser for CgExact {
         "conjugate gradients after Polak and Ribière (β ≥ 0), exact line search on the polynomial along the line"
     }
 
-    fn default_max_iterations(&self) -> usize {
-        Limits::FIRST_ORDER.max_iterations
-    }
-
     fn minimise(
         &self,
         objective: &Objective,

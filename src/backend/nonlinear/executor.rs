@@ -121,7 +121,6 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched
             }
             // A line search that finds no descent has met rounding; the best state is kept.
             Err(error) => {
-                self.stalled = usize::MAX;
                 let state = Iterate::new().param(self.best.y.clone()).cost(self.best.value);
                 Ok((state.terminate_with(TerminationReason::SolverExit(error.to_string())), None))
             }

@@ -62,10 +62,6 @@ impl Minimiser for FirstOrder {
         self.description
     }
 
-    fn default_max_iterations(&self) -> usize {
-        Limits::FIRST_ORDER.max_iterations
-    }
-
     fn minimise(
         &self,
         objective: &Objective,

@@ -29,10 +29,6 @@ impl Minimiser for LbfgsPreconditioned {
         "L-BFGS preconditioned by one Cholesky factor of the Gauss–Newton Hessian at the start, exact line search"
     }
 
-    fn default_max_iterations(&self) -> usize {
-        Limits::FIRST_ORDER.max_iterations
-    }
-
     fn minimise(
         &self,
         objective: &Objective,

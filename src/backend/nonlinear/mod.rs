@@ -23,7 +23,9 @@ pub trait Minimiser: Sync {
     fn description(&self) -> &'static str;
 
     /// Iterations after which it gives up, unless told otherwise.
-    fn default_max_iterations(&self) -> usize;
+    fn default_max_iterations(&self) -> usize {
+        executor::Limits::FIRST_ORDER.max_iterations
+    }
 
     /// A local minimum of `objective` near `start` (`m`).
     ///
