@@ -5,7 +5,8 @@ use super::Faces;
 /// The undirected edges of a polygon mesh and, for each, the corners whose directed edge lies on it.
 ///
 /// Built in linear time by bucketing the directed edges by their smaller vertex. Edges are ordered by
-/// (smaller end, larger end), the corners of an edge by their position.
+/// (smaller end, larger end), the corners of an edge by their position. Two edges may have the same ends where the faces
+/// state their [twins](Faces::twins).
 #[derive(Clone, Debug)]
 pub struct Edges {
     /// End vertices of each edge, the smaller first (`ne × 2`). Equal ends: a face repeats a vertex.
@@ -52,10 +53,12 @@ impl Edges {
         let mut of_corner = vec![0u32; total];
         for v in 0..vertices {
             let (first, last) = (bucket[v] as usize, bucket[v + 1] as usize);
-            corners[first..last].sort_unstable_by_key(|&c| (larger_end[c as usize], c));
+            // Corners of one edge have the same key.
+            let key = |c: u32| (larger_end[c as usize], faces.twins().map(|twins| c.min(twins[c as usize])));
+            corners[first..last].sort_unstable_by_key(|&c| (key(c), c));
             for k in first..last {
                 let w = larger_end[corners[k] as usize];
-                if k == first || w != larger_end[corners[k - 1] as usize] {
+                if k == first || key(corners[k]) != key(corners[k - 1]) {
                     ends.push([v as u32, w]);
                     offsets.push(k as u32);
                 }

@@ -2,10 +2,12 @@
 
 mod defect;
 pub mod diagnosis;
+pub mod digital;
 pub mod disc;
 pub mod edges;
 mod faces;
 pub mod generate;
+pub mod normals;
 pub mod orientation;
 pub mod topology;
 mod union_find;
@@ -22,6 +24,6 @@ pub struct Surface {
     /// Polygons as lists of vertex indices, each index `< nv`, in the order of the source.
     pub faces: Faces,
     /// One unit normal per face (`nf × 3`) where the source gives normals: the normalised mean of the
-    /// normals at the face's corners. A digital surface has its estimated normals here.
+    /// normals at the face's corners.
     pub face_normals: Option<Vec<[f64; 3]>>,
 }

@@ -20,6 +20,7 @@ mod torus;
 
 use std::path::Path;
 
+use super::digital::Digital;
 use super::{Faces, Surface};
 pub use error::GenerateError;
 pub use name::Arguments;
@@ -35,6 +36,8 @@ pub struct Generated {
     pub exact: Option<Vec<[f64; 2]>>,
     /// Exact ratio of periods τ = ω2/ω1 as (re, im), for closed surfaces of genus 1 where it is known.
     pub period: Option<[f64; 2]>,
+    /// Digital surfaces: the voxels and the surfels.
+    pub digital: Option<Digital>,
     /// Canonical name, every parameter spelled out: generates this surface again.
     pub name: String,
 }
@@ -114,12 +117,12 @@ pub fn generate_from(table: &[Row], source: &str) -> Result<Generated, GenerateE
         Form::Square(form) => {
             let patch = mesh::square(&arguments)?;
             let surface = place(&patch.points, patch.faces, &form(&arguments)?);
-            Generated { surface, exact: None, period: None, name: String::new() }
+            Generated { surface, exact: None, period: None, digital: None, name: String::new() }
         }
         Form::Disc(form) => {
             let patch = mesh::disc(&arguments)?;
             let surface = place(&patch.points, patch.faces, &form(&arguments)?);
-            Generated { surface, exact: Some(patch.points), period: None, name: String::new() }
+            Generated { surface, exact: Some(patch.points), period: None, digital: None, name: String::new() }
         }
         Form::Whole(make) => make(&arguments)?,
     };

@@ -46,7 +46,7 @@ fn torus(arguments: &Arguments) -> Result<Generated, GenerateError> {
     }
     let period = [0.0, small / (big * big - small * small).sqrt()];
     let surface = Surface { positions, faces, face_normals: None };
-    Ok(Generated { surface, exact: None, period: Some(period), name: String::new() })
+    Ok(Generated { surface, exact: None, period: Some(period), digital: None, name: String::new() })
 }
 
 /// R and r, where the tube does not meet itself.
