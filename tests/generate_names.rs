@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use riemap::surface::generate::{
     Form, GenerateError, Immersion, Parameter, Row, SURFACES, Values, generate, generate_from, is_generated_name,
 };
+use riemap::surface::parameters::ParameterError;
 
 fn message(source: &str) -> String {
     generate(source).expect_err(source).to_string()
@@ -70,9 +71,9 @@ fn a_new_surface_is_one_row() {
     assert_eq!(g.name, "paraboloid?n=3&a=2&mesh=triangle&diagonal=alternate&jitter=0&seed=0");
     let error = generate_from(&[PARABOLOID], "sphere").unwrap_err();
     assert!(matches!(&error, GenerateError::UnknownSurface { known, .. } if known == "paraboloid"));
-    let wrong = Row { form: Form::Square(|a| Err(a.real("b").expect_err("not declared"))), ..PARABOLOID };
+    let wrong = Row { form: Form::Square(|a| Err(a.real("b").expect_err("not declared").into())), ..PARABOLOID };
     let undeclared = generate_from(&[wrong], "paraboloid").unwrap_err();
-    assert_eq!(undeclared, GenerateError::Undeclared { surface: "paraboloid", parameter: "b" });
+    assert_eq!(undeclared, ParameterError::Undeclared { subject: "paraboloid", parameter: "b" }.into());
 }
 
 #[test]
@@ -93,7 +94,8 @@ fn the_table_is_consistent() {
             for end in ends {
                 match generate(&format!("{}?n=4&{condition}{}={end}", row.name, p.name)) {
                     Ok(_) => {}
-                    Err(GenerateError::OutOfRange { circumstance, .. }) if !circumstance.is_empty() => {}
+                    Err(GenerateError::Parameters(ParameterError::OutOfRange { circumstance, .. }))
+                        if !circumstance.is_empty() => {}
                     Err(error) => panic!("{error}"),
                 }
             }

@@ -9,6 +9,7 @@ mod faces;
 pub mod generate;
 pub mod normals;
 pub mod orientation;
+pub mod parameters;
 pub mod topology;
 mod union_find;
 pub(crate) mod vector;

@@ -14,17 +14,15 @@ mod graph;
 mod grid;
 mod mesh;
 mod name;
-mod parameter;
 mod random;
 mod torus;
 
 use std::path::Path;
 
 use super::digital::Digital;
+pub use super::parameters::{Arguments, Parameter, Values};
 use super::{Faces, Surface};
 pub use error::GenerateError;
-pub use name::Arguments;
-pub use parameter::{Parameter, Values};
 
 /// A generated surface, and what is known of its conformal map.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,7 +110,7 @@ pub fn generate(source: &str) -> Result<Generated, GenerateError> {
 /// As [`generate`].
 pub fn generate_from(table: &[Row], source: &str) -> Result<Generated, GenerateError> {
     let (row, arguments) = name::parse(table, source)?;
-    let name = arguments.canonical(row);
+    let name = arguments.canonical();
     let generated = match row.form {
         Form::Square(form) => {
             let patch = mesh::square(&arguments)?;

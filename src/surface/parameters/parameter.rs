@@ -1,6 +1,6 @@
 use std::fmt;
 
-/// A parameter of a generated surface.
+/// A parameter of something that has a name: a generated surface, a normal estimator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     /// What stands before the `=`.
