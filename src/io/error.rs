@@ -39,7 +39,7 @@ pub enum ReadError {
     },
 }
 
-/// What is wrong in the content of a mesh file, and where.
+/// What is wrong in the content of a mesh or volume file, and where.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{place}: {defect}")]
 pub struct ParseError {
@@ -70,7 +70,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// What can be wrong with a mesh file.
+/// What can be wrong with a mesh or volume file.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Defect {
     /// Nothing but blanks and comments.
@@ -211,6 +211,33 @@ pub enum Defect {
         what: &'static str,
         /// How many there are.
         count: u64,
+    },
+    /// A volume of too many voxels.
+    #[error("{} × {} × {} voxels are more than the {most} this program can hold", size[0], size[1], size[2])]
+    TooLarge {
+        /// Voxels along x, y, z.
+        size: [usize; 3],
+        /// Most voxels, rows being filled up to whole words.
+        most: u64,
+    },
+    /// A raw file of another length than its size says.
+    #[error(
+        "{} × {} × {} values of {bytes_each} byte(s) do not make the {found} bytes of the file; check --size and --type",
+        size[0], size[1], size[2]
+    )]
+    Length {
+        /// Values along x, y, z.
+        size: [usize; 3],
+        /// Bytes of a value.
+        bytes_each: u64,
+        /// Length of the file.
+        found: u64,
+    },
+    /// Data that zlib does not understand.
+    #[error("the compressed data is damaged or ends too early: {reason}")]
+    Compressed {
+        /// What the decoder said.
+        reason: String,
     },
     /// Points or lines without a surface.
     #[error("no faces ({vertices} vertices): a surface is needed, not a point cloud or a curve")]

@@ -1,4 +1,4 @@
-//! Mesh files: OBJ, OFF, PLY and STL in, OBJ and PLY with texture coordinates out.
+//! Mesh files: OBJ, OFF, PLY and STL in, OBJ and PLY with texture coordinates out. Volumes: DGtal, PGM3D, NumPy, raw.
 //!
 //! Readers take the whole file as bytes and check every number and index; what they accept fulfils what
 //! [`Surface`] promises, and nothing is repaired. Errors name the line (or the byte) and what stands there.
@@ -14,6 +14,7 @@ mod ply;
 mod positions;
 mod stl;
 mod token;
+mod volume;
 mod write;
 
 use std::fs;
@@ -26,6 +27,7 @@ pub use error::{Defect, ParseError, Place, ReadError};
 pub use matrix_market::write_matrix_market;
 pub use mesh::VertexText;
 pub use positions::{Places, PositionsError, read_positions};
+pub use volume::{Sample, VolumeError, VolumeFormat, VolumeOptions, is_volume, parse_volume, read_volume, write_vol};
 pub use write::{Uv, WriteError, stage_mesh, writable, write};
 
 use error::Fault;

@@ -1,18 +1,29 @@
+use std::ops::Range;
+
 /// A set of voxels in a box, one bit each. Outside of the box nothing is inside.
 ///
-/// Voxel (i, j, k) is the unit cube around the point `origin + (i, j, k)`.
+/// Voxel (i, j, k) is the unit cube around the point `origin + (i, j, k)`. The first coordinate runs fastest: *scan order*
+/// is that of (k, j, i).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solid {
     size: [usize; 3],
     origin: [f64; 3],
+    /// Rows (j, k) of `words_per_row` words; bits beyond the row's end are 0.
     bits: Vec<u64>,
 }
 
 impl Solid {
-    /// No voxel in a box of `size` voxels.
+    /// No voxel in a box of `size` voxels. Takes one bit of memory for each, rows being filled up to 64 voxels; sizes from
+    /// elsewhere are to be checked first, as [`DigitalError::MOST_VOXELS`](super::DigitalError::MOST_VOXELS) says.
     pub fn empty(size: [usize; 3], origin: [f64; 3]) -> Self {
-        let words = size[0].div_ceil(64) * size[1] * size[2];
+        let words = words_per_row(size[0]).saturating_mul(size[1]).saturating_mul(size[2]);
         Solid { size, origin, bits: vec![0; words] }
+    }
+
+    /// The voxels whose bits are set, row after row of whole words; bits beyond a row's end must be 0.
+    pub(crate) fn from_words(size: [usize; 3], origin: [f64; 3], bits: Vec<u64>) -> Self {
+        debug_assert_eq!(bits.len(), words_per_row(size[0]) * size[1] * size[2]);
+        Solid { size, origin, bits }
     }
 
     /// The extent of the box in voxels.
@@ -45,6 +56,20 @@ impl Solid {
         }
     }
 
+    /// Puts the voxels (i, j, k) with `i` in `run` in; what is outside of the box is ignored.
+    pub fn insert_run(&mut self, run: Range<usize>, j: usize, k: usize) {
+        if j >= self.size[1] || k >= self.size[2] {
+            return;
+        }
+        let row = (k * self.size[1] + j) * words_per_row(self.size[0]);
+        let (mut i, end) = (run.start, run.end.min(self.size[0]));
+        while i < end {
+            let (bit, count) = (i % 64, (64 - i % 64).min(end - i));
+            self.bits[row + i / 64] |= (u64::MAX >> (64 - count)) << bit;
+            i += count;
+        }
+    }
+
     /// Number of voxels.
     pub fn len(&self) -> usize {
         self.bits.iter().map(|word| word.count_ones() as usize).sum()
@@ -55,10 +80,50 @@ impl Solid {
         self.bits.iter().all(|&word| word == 0)
     }
 
-    fn place(&self, [i, j, k]: [i32; 3]) -> Option<(usize, u32)> {
+    /// The voxels (·, j, k): bit `i % 64` of word `i / 64` is voxel (i, j, k). Empty for a row outside of the box.
+    pub fn row(&self, j: usize, k: usize) -> &[u64] {
+        let words = words_per_row(self.size[0]);
+        if j >= self.size[1] || k >= self.size[2] {
+            return &[];
+        }
+        let start = (k * self.size[1] + j) * words;
+        &self.bits[start..start + words]
+    }
+
+    /// The voxels in scan order.
+    pub fn voxels(&self) -> impl Iterator<Item = [i32; 3]> + '_ {
+        let words = words_per_row(self.size[0]).max(1);
+        self.bits.iter().enumerate().filter(|&(_, &word)| word != 0).flat_map(move |(at, &word)| {
+            let (row, first) = (at / words, 64 * (at % words));
+            let [j, k] = [row % self.size[1], row / self.size[1]];
+            set_bits(word).map(move |bit| [(first + bit as usize) as i32, j as i32, k as i32])
+        })
+    }
+
+    /// Word and bit of a voxel of the box.
+    pub(super) fn place(&self, [i, j, k]: [i32; 3]) -> Option<(usize, u32)> {
         let [width, height, depth] = self.size;
         let (i, j, k) = (usize::try_from(i).ok()?, usize::try_from(j).ok()?, usize::try_from(k).ok()?);
         (i < width && j < height && k < depth)
-            .then(|| ((k * height + j) * width.div_ceil(64) + i / 64, (i % 64) as u32))
+            .then(|| ((k * height + j) * words_per_row(width) + i / 64, (i % 64) as u32))
     }
+
+    /// Number of words in all.
+    pub(super) fn words(&self) -> usize {
+        self.bits.len()
+    }
+}
+
+/// Words that a row of `width` voxels takes.
+pub(crate) fn words_per_row(width: usize) -> usize {
+    width.div_ceil(64)
+}
+
+/// The positions of the bits that are set, in ascending order.
+pub(super) fn set_bits(mut word: u64) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        let bit = word.trailing_zeros();
+        word &= word.wrapping_sub(1);
+        (bit < 64).then_some(bit)
+    })
 }

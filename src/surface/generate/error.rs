@@ -24,4 +24,7 @@ pub enum GenerateError {
         /// Faces of positive area.
         found: usize,
     },
+    /// A digitised shape without the surface that was asked for.
+    #[error(transparent)]
+    Digital(#[from] crate::surface::digital::DigitalError),
 }

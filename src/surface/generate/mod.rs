@@ -8,6 +8,7 @@
 //! the same everywhere.
 
 mod delaunay;
+mod digital;
 mod disc;
 mod error;
 mod graph;
@@ -29,8 +30,8 @@ pub use error::GenerateError;
 pub struct Generated {
     /// The mesh. Faces are counter-clockwise in the domain, so that the exact map preserves orientation.
     pub surface: Surface,
-    /// Exact conformal disc coordinates w (one per vertex, |w| ≤ 1, boundary on |w| = 1, both up to rounding), where
-    /// they are known.
+    /// Exact conformal disc coordinates w (one per vertex, |w| ≤ 1, boundary on |w| = 1, both up to rounding, of
+    /// digital surfaces up to O(h), h the side of a voxel over the size of the shape), where they are known.
     pub exact: Option<Vec<[f64; 2]>>,
     /// Exact ratio of periods τ = ω2/ω1 as (re, im), for closed surfaces of genus 1 where it is known.
     pub period: Option<[f64; 2]>,
@@ -94,6 +95,11 @@ pub static SURFACES: &[Row] = &[
     disc::pseudosphere::PSEUDOSPHERE,
     disc::torus_patch::TORUS_PATCH,
     torus::TORUS,
+    digital::TORUS,
+    digital::BALL,
+    digital::CAP,
+    digital::ELLIPSOID,
+    digital::BOX,
 ];
 
 /// The surface of that name, among [`SURFACES`].

@@ -58,6 +58,11 @@ impl Arguments {
         Ok(arguments)
     }
 
+    /// The defaults.
+    pub fn defaults<'a>(subject: &'static str, declared: impl IntoIterator<Item = &'a Parameter>) -> Self {
+        Arguments { subject, values: declared.into_iter().map(|p| (*p, default(&p.values))).collect() }
+    }
+
     /// A parameter declared as a whole number.
     ///
     /// # Errors

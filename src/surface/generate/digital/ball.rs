@@ -1,0 +1,37 @@
+use super::{Frame, closed};
+use crate::surface::digital::Implicit;
+use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::vector::{norm, scale};
+
+/// √(x² + y² + z²) ≤ R. Rays from the centre cross the boundary once: an inner voxel at v with an outer one at v + n has
+/// n · (v + n/2) = (|v + n|² − |v|²)/2 > 0.
+pub(in super::super) const BALL: Row = Row {
+    name: "digital-ball",
+    about: "surfels of the lattice points in a ball, √(x² + y² + z²) ≤ R: a closed sphere",
+    parameters: &[&[Parameter::real("R", 16.0, 1.0, 500.0, "radius, in voxels")], super::POSITION],
+    form: Form::Whole(|arguments| {
+        let ball = Ball { frame: Frame::new(arguments, false)?, radius: arguments.real("R")? };
+        closed(arguments, &ball, ball.frame.bounds([ball.radius; 3]), 2, "R")
+    }),
+    exact: false,
+};
+
+pub(super) struct Ball {
+    pub frame: Frame,
+    pub radius: f64,
+}
+
+impl Implicit for Ball {
+    fn value(&self, p: [f64; 3]) -> f64 {
+        norm(self.frame.inward(p)) - self.radius
+    }
+
+    fn gradient(&self, p: [f64; 3]) -> [f64; 3] {
+        let p = self.frame.inward(p);
+        self.frame.outward(scale(1.0 / norm(p), p))
+    }
+
+    fn lipschitz(&self) -> f64 {
+        1.0
+    }
+}
