@@ -7,6 +7,7 @@ pub mod disc;
 pub mod edges;
 mod faces;
 pub mod generate;
+pub mod normals;
 pub mod orientation;
 pub mod parameters;
 pub mod topology;

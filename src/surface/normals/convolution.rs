@@ -1,0 +1,59 @@
+use super::whole::on_whole;
+use super::{Facets, NormalError, NormalEstimator, outward, rule};
+use crate::surface::parameters::{Arguments, Parameter};
+use crate::surface::vector::{add, scale, sub};
+
+/// `u ← u + ⅛ Σ_{g ~ f} (u_g − u_f)`, `steps` times, from u = area · normal; then u/|u|.
+///
+/// One step is a symmetric average over the face and its neighbours across edges, so every face's normal is handed out
+/// whole: on a plane the average of the surfels' axes is along its normal, for there are as many of each as its normal's
+/// components say. After k steps the weights are close to a Gaussian whose standard deviation, on a flat patch of squares, is
+/// `√k / 2` edges along each axis: `steps = 4 radius²`, the radius being that deviation. Its spectrum falls faster than that
+/// of a weight which ends at a radius, and so does what is left of the staircase; the cost is O(nf · steps).
+///
+/// After Fourey, Malgouyres, *Normals estimation for digital surfaces based on convolutions* (Computers & Graphics 33, 2009).
+pub(super) struct Convolution;
+
+/// The default of [`Convolution`], found best or nearly so (root mean square of the angle) on digitised balls, ellipsoids and
+/// tori of 500 to 130 000 surfels: 4.5 L^(2/3) steps.
+const RADIUS: [Parameter; 3] = [rule::radius(), rule::factor(1.06), rule::exponent(0.333)];
+
+impl NormalEstimator for Convolution {
+    fn name(&self) -> &'static str {
+        "convolution"
+    }
+
+    fn about(&self) -> &'static str {
+        "4 radius² averages over face neighbours: nearly Gaussian weights, the radius their standard deviation"
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        &RADIUS
+    }
+
+    fn estimate(&self, facets: &Facets, arguments: &Arguments) -> Result<Vec<[f64; 3]>, NormalError> {
+        on_whole(facets, |facets| {
+            let radius = rule::radius_of(facets, arguments, 1.0)?;
+            Ok(convolved(facets, &facets.normal, (4.0 * radius * radius).round() as usize))
+        })
+    }
+}
+
+/// `normals` after `steps` averages.
+pub(super) fn convolved(facets: &Facets, normals: &[[f64; 3]], steps: usize) -> Vec<[f64; 3]> {
+    let unit = 1.0 / (facets.spacing * facets.spacing);
+    let mut u: Vec<[f64; 3]> = normals.iter().zip(&facets.area).map(|(&n, a)| scale(a * unit, n)).collect();
+    let mut next = u.clone();
+    for _ in 0..steps {
+        for (f, to) in next.iter_mut().enumerate() {
+            let own = u[f];
+            let flow = facets.neighbours(f).iter().fold([0.0; 3], |sum, &g| add(sum, sub(u[g as usize], own)));
+            *to = add(own, scale(0.125, flow));
+        }
+        std::mem::swap(&mut u, &mut next);
+    }
+    for (u, &own) in u.iter_mut().zip(&facets.normal) {
+        *u = outward(*u, own);
+    }
+    u
+}

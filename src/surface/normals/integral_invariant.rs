@@ -1,0 +1,77 @@
+use nalgebra::Matrix3;
+
+use super::moments::{Ball, Moments};
+use super::whole::on_whole;
+use super::{Facets, NormalError, NormalEstimator, outward, rule};
+use crate::surface::digital::Surfel;
+use crate::surface::parameters::{Arguments, Parameter};
+use crate::surface::vector::{add, dot, scale};
+
+/// The eigenvector of the smallest eigenvalue of the covariance matrix of the voxels in the ball of that radius around the
+/// surfel's centre, on the side away from their mean.
+///
+/// Half a ball has the variance `0.059 r²` across its plane and `0.2 r²` along it. The voxels are counted in runs along rows,
+/// in whole numbers: O(nf r²), and nothing is rounded before the eigenvector.
+///
+/// After Lachaud, Coeurjolly, Levallois, *Robust and convergent curvature and normal estimators with digital integral
+/// invariants* (Modern Approaches to Discrete Curvature, LNM 2184, 2017). Their radius `k h^(1/3)` in units of the object is
+/// `k L^(2/3)` voxels, `exponent=0.667` here; the default was the better one on ellipsoids and tori of 2000 to 30 000 surfels.
+/// The ball must not reach through the solid: a tube of voxels needs a radius below its own.
+pub(super) struct IntegralInvariant;
+
+const RADIUS: [Parameter; 3] = [rule::radius(), rule::factor(1.7), rule::exponent(0.5)];
+
+/// Below it the ball holds too few voxels to span a direction.
+const LEAST_RADIUS: f64 = 2.0;
+
+impl NormalEstimator for IntegralInvariant {
+    fn name(&self) -> &'static str {
+        "integral-invariant"
+    }
+
+    fn about(&self) -> &'static str {
+        "the direction in which the voxels of a ball vary least (voxels)"
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        &RADIUS
+    }
+
+    fn estimate(&self, facets: &Facets, arguments: &Arguments) -> Result<Vec<[f64; 3]>, NormalError> {
+        on_whole(facets, |facets| {
+            let digital = facets.digital.ok_or(NormalError::NotDigital { estimator: self.name() })?;
+            let radius = rule::radius_of(facets, arguments, LEAST_RADIUS)?;
+            let kinds = [0, 1, 2, 3, 4, 5].map(|kind: u8| Ball::new(kind / 2, kind % 2 == 1, radius));
+            let normal = |(surfel, &own): (&Surfel, &[f64; 3])| {
+                let ball = &kinds[usize::from(2 * surfel.axis + u8::from(surfel.positive))];
+                let moments = ball.moments(&digital.solid, surfel);
+                let normal = least(&moments, own);
+                let inward = dot(normal, moments.first.map(|s| s as f64)) > 0.0;
+                outward(if inward { scale(-1.0, normal) } else { normal }, own)
+            };
+            Ok(digital.surfels.iter().zip(&facets.normal).map(normal).collect())
+        })
+    }
+}
+
+/// The eigenvector of the smallest eigenvalue of `Σ p pᵀ − (Σ p)(Σ p)ᵀ / Σ 1`; where that is a multiple one, as of a rod or of
+/// a single voxel, the part of `own` in its eigenspace.
+fn least(m: &Moments, own: [f64; 3]) -> [f64; 3] {
+    // Beside the largest eigenvalue; the entries are whole numbers but for one division.
+    const EQUAL: f64 = 1e-10;
+    let [x, y, z] = m.first.map(|s| s as f64);
+    let [xx, yy, zz, yz, zx, xy] = m.second.map(|s| s as f64);
+    // The ball holds the surfel's inner voxel at least.
+    let n = m.count.max(1) as f64;
+    let (xy, yz, zx) = (xy - x * y / n, yz - y * z / n, zx - z * x / n);
+    let covariance = Matrix3::new(xx - x * x / n, xy, zx, xy, yy - y * y / n, yz, zx, yz, zz - z * z / n);
+    let eigen = covariance.symmetric_eigen();
+    let vector = |k: usize| -> [f64; 3] { eigen.eigenvectors.column(k).into_owned().into() };
+    let bound = eigen.eigenvalues.min() + EQUAL * eigen.eigenvalues.max();
+    let mut space = (0..3).filter(|&k| eigen.eigenvalues[k] <= bound).map(vector);
+    match (space.next(), space.next(), space.next()) {
+        (Some(only), None, _) => only,
+        (Some(a), Some(b), None) => add(scale(dot(a, own), a), scale(dot(b, own), b)),
+        _ => own,
+    }
+}
