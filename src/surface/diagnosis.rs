@@ -85,15 +85,25 @@ impl Finding {
             Finding::ZeroLengthEdges { .. } => "quads are mapped through their diagonals; nothing need be done",
             Finding::ZeroAreaFaces { .. } => "remove or collapse the face, or move a vertex",
             Finding::NonManifoldEdges { .. } => "remove surplus faces, or split the edge into one per pair of faces",
-            Finding::NonManifoldVertices { .. } => "split the vertex into one per fan of faces",
-            Finding::NonOrientable { .. } => "a one-sided surface has no conformal map to the plane: cut it open first",
+            Finding::NonManifoldVertices { .. } => "split the vertex into one per fan of faces, or let --cut do so",
+            Finding::NonOrientable { .. } => {
+                "a one-sided surface has no conformal map to the plane, and is not cut: separate faces along a one-sided \
+                 loop"
+            }
             Finding::Reoriented { .. } => "they are turned over for the map; the output keeps the faces as they were",
             Finding::Components { .. } => "split the mesh, and map one component at a time",
-            Finding::Closed { genus: 0 } => "cut the surface open, to one boundary loop, or remove a face",
-            Finding::Closed { .. } => "cut the surface open, to one boundary loop and genus 0",
-            Finding::NotADisc { .. } => {
-                "fill the holes or cut the surface open until one boundary loop and genus 0 remain"
+            Finding::Closed { genus: 0 } => {
+                "cut it open (--cut), or leave a face of a triangle mesh out (--remove-face F)"
             }
+            Finding::Closed { genus: 1 } => "map it whole, with periods (--boundary periodic), or cut it open (--cut)",
+            Finding::Closed { .. } => "cut it open (--cut)",
+            Finding::NotADisc { genus: 0, .. } => {
+                "fill all holes but the longest (--fill-holes), or cut the surface open (--cut)"
+            }
+            Finding::NotADisc { genus: 1, .. } => {
+                "cut the surface open (--cut), or fill the holes and map it whole (--fill-holes --boundary periodic)"
+            }
+            Finding::NotADisc { .. } => "cut the surface open (--cut)",
             Finding::Unreferenced { .. } => "they are kept in the output, at the texture coordinate 0 0, and ignored",
             Finding::CoincidentVertices { .. } => "if the surface should be connected there, weld the vertices first",
         }

@@ -4,19 +4,26 @@ use super::diagnosis::{Diagnosis, Finding};
 use super::edges::next_in;
 use super::{Faces, Surface};
 
-/// One consistently oriented topological disc of triangles or of quads, vertices numbered without gaps.
+/// One consistently oriented topological disc of triangles or of quads, vertices numbered without gaps; or, from
+/// [`Disc::closed`], a closed surface.
 #[derive(Clone, Debug)]
 pub struct Disc {
     /// Vertex positions (`nv × 3`), those in use only.
     pub positions: Vec<[f64; 3]>,
-    /// The faces, in the order of the source, all counter-clockwise seen from the same side.
+    /// The faces, in the order of the source, all counter-clockwise seen from the same side. The last `filled` ones close
+    /// holes of the source.
     pub faces: Faces,
     /// Unit normals per face (`nf × 3`), turned over with their faces, where the source gives them.
     pub face_normals: Option<Vec<[f64; 3]>>,
-    /// The boundary loop, with the surface on its left, from the vertex of lowest index.
+    /// The boundary loop, with the surface on its left, from the vertex of lowest index. Empty where there is none.
     pub boundary: Vec<u32>,
-    /// For each vertex its index in the source.
+    /// For each vertex its index in the source, ascending. One on a cut is there several times, one behind the other;
+    /// those put into holes come last and have [`Disc::NEW`].
     pub source_vertex: Vec<u32>,
+    /// For each face its index in the source, ascending; those put into holes come last and have [`Disc::NEW`].
+    pub source_face: Vec<u32>,
+    /// Number of faces that were put into holes. They take part in the map, but not in what is written or measured.
+    pub filled: usize,
 }
 
 /// The surface is no disc, or too badly formed to be mapped: all that stands against it.
@@ -33,6 +40,9 @@ fn lines(findings: &[Finding]) -> String {
 }
 
 impl Disc {
+    /// Marks what the source has not: vertices and faces put into holes; and, of corners, what the disc has not.
+    pub const NEW: u32 = u32::MAX;
+
     /// The disc that `surface` is, with the orientation its diagnosis asks for.
     ///
     /// # Errors
@@ -60,7 +70,51 @@ impl Disc {
         }
         let boundary = boundary(surface, diagnosis, &compact);
         let positions = source_vertex.iter().map(|&v| surface.positions[v as usize]).collect();
-        Ok(Disc { positions, faces, face_normals, boundary, source_vertex })
+        let source_face = (0..faces.len() as u32).collect();
+        Ok(Disc { positions, faces, face_normals, boundary, source_vertex, source_face, filled: 0 })
+    }
+
+    /// Number of faces that the source has too; they come first.
+    pub fn source_faces(&self) -> usize {
+        self.faces.len() - self.filled
+    }
+
+    /// The vertices that vertex `source` of the source became: none where no face uses it, several where it was cut.
+    pub fn copies(&self, source: u32) -> std::ops::Range<u32> {
+        let first = self.source_vertex.partition_point(|&v| v < source);
+        let count = self.source_vertex[first..].iter().take_while(|&&v| v == source && v != Self::NEW).count();
+        first as u32..(first + count) as u32
+    }
+
+    /// Whether some vertex of the source is there several times.
+    pub fn is_cut(&self) -> bool {
+        self.source_vertex.windows(2).any(|pair| pair[0] == pair[1] && pair[0] != Self::NEW)
+    }
+
+    /// For every corner of `surface`, from which this was made, the vertex there; [`Disc::NEW`] at faces that were removed.
+    pub fn corner_vertices(&self, surface: &Surface) -> Vec<u32> {
+        let mut corners = self.corners_of(surface);
+        for c in corners.iter_mut().filter(|c| **c != Self::NEW) {
+            *c = self.faces.corners()[*c as usize];
+        }
+        corners
+    }
+
+    /// For every corner of `surface`, from which this was made, the corner here, a position in the corners of
+    /// [`Disc::faces`]; [`Disc::NEW`] at faces that were removed.
+    pub fn corners_of(&self, surface: &Surface) -> Vec<u32> {
+        let mut corners = vec![Self::NEW; surface.faces.corners().len()];
+        for (f, &source) in self.source_face.iter().enumerate().take(self.source_faces()) {
+            let range = surface.faces.corner_range(source as usize);
+            let (theirs, ours) = (surface.faces.get(source as usize), self.faces.get(f));
+            let (first, n) = (self.faces.corner_range(f).start, ours.len());
+            // A face that was turned over keeps its first corner.
+            let turned = self.source_vertex[ours[1] as usize] != theirs[1];
+            for (k, c) in range.enumerate() {
+                corners[c] = (first + if turned { (n - k) % n } else { k }) as u32;
+            }
+        }
+        corners
     }
 }
 

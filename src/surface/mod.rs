@@ -1,5 +1,6 @@
 //! What is mapped: positions and polygons, and all that is known of them before a formula is applied.
 
+pub mod cut;
 mod defect;
 pub mod diagnosis;
 pub mod digital;
@@ -7,10 +8,12 @@ pub mod disc;
 pub mod edges;
 mod faces;
 pub mod generate;
+mod holes;
 pub mod normals;
 pub mod orientation;
 pub mod parameters;
 pub mod topology;
+pub mod tree_cotree;
 mod union_find;
 pub(crate) mod vector;
 

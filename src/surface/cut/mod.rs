@@ -1,0 +1,137 @@
+//! Any connected oriented surface made a disc, or closed: faces removed, holes filled, handles and holes cut open.
+
+mod error;
+mod graph;
+mod record;
+mod sheet;
+
+pub use error::CutError;
+pub use record::CutRecord;
+pub(super) use sheet::Sheet;
+
+use super::Surface;
+use super::diagnosis::{Diagnosis, Finding};
+use super::disc::{Disc, NotADisc};
+use super::edges::Edges;
+use super::holes::fill;
+use super::tree_cotree::EdgeGraph;
+
+/// How a surface becomes a disc.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Opening {
+    /// Cut along a short graph whatever is no disc, and split vertices where the surface touches itself.
+    pub cut: bool,
+    /// Faces to remove first; they count from 0.
+    pub remove_faces: Vec<u32>,
+    /// Fill all holes but the longest; the faces put in take part in the map, but not in what is written or measured.
+    pub fill_holes: bool,
+}
+
+impl Disc {
+    /// The disc that `surface` becomes: `remove_faces`, then `fill_holes`, then `cut`, as far as they are asked for and
+    /// needed.
+    ///
+    /// Every face stays as it is; vertices on the cut are there once for each fan of faces that the cut leaves.
+    ///
+    /// # Errors
+    /// What stands against the surface and no opening mends; a result that is no disc; holes that cannot be filled.
+    pub fn open(surface: &Surface, diagnosis: &Diagnosis, opening: &Opening) -> Result<(Self, CutRecord), CutError> {
+        let whole = opening.remove_faces.is_empty();
+        if whole && (diagnosis.fatal().next().is_none() || *opening == Opening::default()) {
+            return Ok((Disc::new(surface, diagnosis)?, CutRecord::default()));
+        }
+        refuse(diagnosis, |finding| match finding {
+            Finding::Closed { .. } | Finding::NonManifoldVertices { .. } => opening.cut || !whole,
+            Finding::NotADisc { .. } => opening.cut || opening.fill_holes || !whole,
+            _ => false,
+        })?;
+        let mut record = CutRecord::default();
+        let mut sheet = prepare(surface, diagnosis, opening, &mut record)?;
+        if opening.fill_holes {
+            let loops = sheet.boundary_loops();
+            fill(&mut sheet, loops.get(1..).unwrap_or_default(), &mut record)?;
+        }
+        let mut loops = sheet.boundary_loops();
+        let genus = (2 - loops.len() as i64 - sheet.euler()).max(0) as u64 / 2;
+        if loops.len() != 1 || genus != 0 {
+            record.genus = genus;
+            record.boundary_loops = loops.len();
+            if !opening.cut {
+                let boundary_loops = loops.iter().map(Vec::len).collect();
+                return Err(CutError::NoDiscLeft { boundary_loops, genus });
+            }
+            cut(&mut sheet, genus, &mut record);
+            loops = sheet.boundary_loops();
+        }
+        match loops.as_slice() {
+            [only] if sheet.euler() == 1 => Ok((sheet.into_disc(only), record)),
+            _ => Err(CutError::NoDiscLeft { boundary_loops: loops.iter().map(Vec::len).collect(), genus }),
+        }
+    }
+
+    /// The closed surface that `surface` is, or becomes when all of its holes are filled. Its [`Disc::boundary`] is empty,
+    /// and it is of any genus.
+    ///
+    /// # Errors
+    /// What else stands against the surface; holes, where these are not to be filled or cannot be.
+    pub fn closed(surface: &Surface, diagnosis: &Diagnosis, fill_holes: bool) -> Result<(Self, CutRecord), CutError> {
+        refuse(diagnosis, |finding| matches!(finding, Finding::Closed { .. } | Finding::NotADisc { .. }))?;
+        let mut record = CutRecord::default();
+        let mut sheet = prepare(surface, diagnosis, &Opening::default(), &mut record)?;
+        let loops = sheet.boundary_loops();
+        if !loops.is_empty() && !fill_holes {
+            return Err(CutError::NotClosed { boundary_loops: loops.iter().map(Vec::len).collect() });
+        }
+        fill(&mut sheet, &loops, &mut record)?;
+        Ok((sheet.into_disc(&[]), record))
+    }
+}
+
+/// Fails with all fatal findings that are not `mended`.
+fn refuse(diagnosis: &Diagnosis, mended: impl Fn(&Finding) -> bool) -> Result<(), NotADisc> {
+    let findings: Vec<Finding> = diagnosis.fatal().filter(|&finding| !mended(finding)).cloned().collect();
+    if findings.is_empty() { Ok(()) } else { Err(NotADisc { findings }) }
+}
+
+/// The faces that stay, in one piece, every vertex with one fan of faces.
+fn prepare(
+    surface: &Surface,
+    diagnosis: &Diagnosis,
+    opening: &Opening,
+    record: &mut CutRecord,
+) -> Result<Sheet, CutError> {
+    let faces = surface.faces.len();
+    let mut removed = vec![false; faces];
+    for &face in &opening.remove_faces {
+        *removed.get_mut(face as usize).ok_or(CutError::NoSuchFace { face, faces })? = true;
+    }
+    record.faces_removed = removed.iter().filter(|&&gone| gone).count();
+    if record.faces_removed == faces {
+        return Err(CutError::NothingLeft);
+    }
+    let mut sheet = Sheet::new(surface, &diagnosis.topology, &removed);
+    if record.faces_removed > 0 {
+        let pieces = sheet.pieces();
+        if pieces > 1 {
+            return Err(CutError::Pieces { pieces });
+        }
+    }
+    let pinches = sheet.split_fans();
+    if let (Some((vertex, fans)), false) = (pinches.first, opening.cut) {
+        return Err(CutError::Pinched { vertex, fans });
+    }
+    record.vertices_split = pinches.count;
+    Ok(sheet)
+}
+
+/// Cuts a surface that is no disc along a short graph.
+fn cut(sheet: &mut Sheet, genus: u64, record: &mut CutRecord) {
+    let faces = sheet.faces();
+    let edges = Edges::new(&faces, sheet.positions.len());
+    let graph = EdgeGraph::new(&faces, &edges, sheet.positions.len(), sheet.lengths(&edges));
+    let along = graph::cut_graph(&graph, genus);
+    record.cut_edges = along.len();
+    record.cut_length = along.iter().map(|&e| graph.length[e as usize]).sum();
+    sheet.part(along.iter().flat_map(|&e| edges.corners(e as usize)).copied());
+}
