@@ -1,5 +1,5 @@
 use super::page::Page;
-use super::{FigureError, Format};
+use super::{FigureError, Format, style};
 use crate::surface::Faces;
 
 /// A planar map drawn face by face, coloured by one number per face.
@@ -29,7 +29,7 @@ impl FlatMap<'_> {
     /// Every variant of [`FigureError`] but `UnknownFormat`: what does not fit together, names no vertex, or has no
     /// place on paper.
     pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
-        let page = Page::of(self)?;
+        let page = Page::of(self, style::PLOT)?;
         match format {
             Format::Png => page.to_png(),
             Format::Svg => page.to_svg().map(String::into_bytes),

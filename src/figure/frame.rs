@@ -4,7 +4,7 @@ use super::{FigureError, style, text};
 
 /// Plane → paper with the same scale on both axes, y upward in the plane, downward on paper.
 ///
-/// The plot area begins at the paper's origin and is as large as the map at the largest scale that `style::PLOT`
+/// The plot area begins at the paper's origin and is as large as the map at the largest scale that its longest side
 /// admits, though never shorter than `style::PLOT_MIN`; then the map is centred in it.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
@@ -22,14 +22,14 @@ pub(super) struct Frame {
 const LARGEST_EXTENT: f64 = 1e300;
 
 impl Frame {
-    /// The frame of a map with the given bounding box.
-    pub(super) fn around(low: [f64; 2], high: [f64; 2]) -> Result<Frame, FigureError> {
+    /// The frame of a map with the given bounding box, its longer side as given.
+    pub(super) fn around(low: [f64; 2], high: [f64; 2], longest: f64) -> Result<Frame, FigureError> {
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
         // A NaN fails this too.
         if !(width <= LARGEST_EXTENT && height <= LARGEST_EXTENT) {
             return Err(FigureError::Extent { width, height });
         }
-        let room = style::PLOT - 2.0 * style::PADDING;
+        let room = longest - 2.0 * style::PADDING;
         let scale = room / width.max(height);
         if !scale.is_finite() {
             return Err(FigureError::NoExtent { x: low[0], y: low[1] });

@@ -1,4 +1,4 @@
-//! Pictures: maps drawn flat, as PNG or SVG bytes.
+//! Pictures: maps drawn flat, surfaces with the map's checkerboard, plots; as PNG or SVG bytes.
 //!
 //! A figure reads plain data (points, polygons, one number per face) and never computes a map. It returns bytes, so that
 //! the caller decides where and how they are written. The same input gives the same bytes on every run.
@@ -12,6 +12,8 @@
 //! | `outline.rs` | the edges of the mesh, and which of them are its boundary |
 //! | `drawing.rs` | vector shapes and text, written as SVG or painted on a picture |
 //! | `plot*.rs` | [`Plot`]: series of points on linear or logarithmic axes, laid out by plotters on a `Drawing` |
+//! | `view/` | [`SurfaceView`]: a surface in space, shaded, with a checkerboard on it |
+//! | `pair.rs` | [`Pair`]: a map and its surface side by side |
 //! | `raster.rs` | polygons → pixels by supersampling; PNG |
 //! | `text.rs`, `style.rs` | the embedded font; colours and sizes that all figures share |
 //!
@@ -40,6 +42,7 @@ mod flat;
 mod frame;
 mod outline;
 mod page;
+mod pair;
 mod plot;
 mod plot_axis;
 mod plot_backend;
@@ -49,14 +52,17 @@ mod raster;
 mod scale;
 mod style;
 mod text;
+mod view;
 
 use std::path::{Path, PathBuf};
 
 pub use colour::{Colour, error_colour};
 pub use flat::FlatMap;
+pub use pair::Pair;
 pub use plot::{Axis, Plot, Reference, Series};
 pub use scale::Scale;
 pub use style::{ALARM, OVER};
+pub use view::{Camera, Checker, Shading, SurfaceView};
 
 /// What a picture is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,6 +157,106 @@ pub enum FigureError {
         /// Width of the bounding box.
         width: f64,
         /// Height of the bounding box.
+        height: f64,
+    },
+    /// Texture coordinates do not match the corners of the faces.
+    #[error(
+        "{given} texture coordinates for {corners} corners: the picture needs one pair per corner, face after face"
+    )]
+    TextureCount {
+        /// Number of pairs given.
+        given: usize,
+        /// Number of corners of all faces.
+        corners: usize,
+    },
+    /// Texture coordinates that are NaN or infinite.
+    #[error("vertex {vertex} of face {face} (0-based) has texture coordinates ({u}, {v}), which are not finite")]
+    Texture {
+        /// The vertex.
+        vertex: u32,
+        /// The face at whose corner they are.
+        face: usize,
+        /// The first coordinate.
+        u: f64,
+        /// The second coordinate.
+        v: f64,
+    },
+    /// Squares that a map has no place for.
+    #[error("{squares} squares cannot be laid across a map {width} wide and {height} high")]
+    Squares {
+        /// As asked for.
+        squares: usize,
+        /// Width of the map.
+        width: f64,
+        /// Height of the map.
+        height: f64,
+    },
+    /// One normal per face is wanted.
+    #[error("{normals} normals for {faces} faces: the picture needs one normal per face")]
+    NormalCount {
+        /// Number of normals given.
+        normals: usize,
+        /// Number of faces.
+        faces: usize,
+    },
+    /// A marked face that does not exist.
+    #[error("face {face} is to be marked, but there are only {faces} faces (counted from 0)")]
+    Marked {
+        /// The face.
+        face: usize,
+        /// Number of faces.
+        faces: usize,
+    },
+    /// A seam ends in a vertex that is on no face.
+    #[error("seam {seam} ends at vertex {vertex}, which no face has (both counted from 0)")]
+    Seam {
+        /// The seam.
+        seam: usize,
+        /// The vertex.
+        vertex: u32,
+    },
+    /// A position that is NaN or infinite.
+    #[error("vertex {vertex} of face {face} (0-based) is at {at:?}, which is no point of space")]
+    Position {
+        /// The vertex.
+        vertex: u32,
+        /// The first face that has it.
+        face: usize,
+        /// Its position.
+        at: [f64; 3],
+    },
+    /// A surface that is a point, or is seen as one.
+    #[error("the surface is seen as a single point, at {at:?}: it has no extent to draw")]
+    NoSurfaceExtent {
+        /// One of its points.
+        at: [f64; 3],
+    },
+    /// A surface whose size floating point cannot scale.
+    #[error("the surface measures {size:?}, too large to be scaled to paper")]
+    SurfaceExtent {
+        /// Of its bounding box.
+        size: [f64; 3],
+    },
+    /// A direction of the camera that is none.
+    #[error("the camera's direction `{name}` is {vector:?}: it must be finite and not 0")]
+    Direction {
+        /// Which.
+        name: &'static str,
+        /// As given.
+        vector: [f64; 3],
+    },
+    /// An angle that no lens has.
+    #[error("the camera's field of view is {angle}°: it must be from 0.1 to 90")]
+    FieldOfView {
+        /// In degrees.
+        angle: f64,
+    },
+    /// Margins and title leave no room.
+    #[error("margins and title leave {width} × {height} pixels for the picture: ask for a larger one")]
+    Room {
+        /// Pixels across.
+        width: f64,
+        /// Pixels down.
         height: f64,
     },
     /// No such sheet of pixels.

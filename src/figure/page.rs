@@ -5,7 +5,7 @@ use super::colour::{Colour, error_colour};
 use super::drawing::{Anchor, Drawing, Shape};
 use super::frame::Frame;
 use super::outline::edges;
-use super::raster::{Raster, SAMPLES, blank_sheet, encode_png};
+use super::raster::{Raster, SAMPLES, Sheet, blank_sheet, encode_png};
 use super::scale::Scale;
 use super::{FigureError, FlatMap, style, text};
 
@@ -39,9 +39,10 @@ pub(super) struct Page<'a> {
 }
 
 impl<'a> Page<'a> {
-    pub(super) fn of(map: &'a FlatMap<'a>) -> Result<Page<'a>, FigureError> {
+    /// With a plot area whose longer side has `longest` pixels.
+    pub(super) fn of(map: &'a FlatMap<'a>, longest: f64) -> Result<Page<'a>, FigureError> {
         let (low, high) = map.bounds()?;
-        let frame = Frame::around(low, high)?;
+        let frame = Frame::around(low, high, longest)?;
         let mut flipped: Vec<bool> = map.values.iter().map(|v| *v < 0.0).collect();
         map.flipped.iter().for_each(|f| flipped[*f] = true);
         let upright = map.values.iter().zip(&flipped).filter(|(_, flipped)| !**flipped);
@@ -58,13 +59,18 @@ impl<'a> Page<'a> {
     }
 
     pub(super) fn to_png(&self) -> Result<Vec<u8>, FigureError> {
-        let mut sheet = blank_sheet(self.size[0], self.size[1])?;
-        let [x, y] = self.corner.map(|c| c as i32);
-        sheet.draw_pixmap(x, y, self.picture(1)?.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
+        encode_png(&self.sheet(1)?.pixels, 1)
+    }
+
+    /// The page in pixels, `zoom` times as large as on paper.
+    pub(super) fn sheet(&self, zoom: usize) -> Result<Sheet, FigureError> {
+        let mut pixels = blank_sheet(self.size[0] * zoom as u32, self.size[1] * zoom as u32)?;
+        let [x, y] = self.corner.map(|c| c as i32 * zoom as i32);
+        pixels.draw_pixmap(x, y, self.picture(zoom)?.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
         let mut drawing = Drawing::default();
         self.surroundings(&mut drawing);
-        drawing.paint(&mut sheet, 1);
-        encode_png(&sheet)
+        drawing.paint(&mut pixels, zoom);
+        Ok(Sheet { pixels, middle: self.corner[1] + self.frame.size[1] / 2.0 })
     }
 
     pub(super) fn to_svg(&self) -> Result<String, FigureError> {
@@ -75,8 +81,8 @@ impl<'a> Page<'a> {
             });
             self.lines_and_flipped_faces(self.corner, &mut drawing);
         } else {
-            let fine = encode_png(&self.picture(PICTURE_ZOOM)?)?;
-            let png = if fine.len() <= PICTURE_BYTES { fine } else { encode_png(&self.picture(1)?)? };
+            let fine = encode_png(&self.picture(PICTURE_ZOOM)?, 1)?;
+            let png = if fine.len() <= PICTURE_BYTES { fine } else { encode_png(&self.picture(1)?, 1)? };
             drawing.shapes.push(Shape::Picture { corner: self.corner, size: self.frame.size, png });
         }
         self.surroundings(&mut drawing);

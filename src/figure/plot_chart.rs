@@ -64,7 +64,7 @@ pub(super) fn render(plot: &Plot, format: Format) -> Result<Vec<u8>, FigureError
         Format::Png => {
             let mut sheet = blank_sheet(width, height)?;
             drawing.paint(&mut sheet, 1);
-            encode_png(&sheet)
+            encode_png(&sheet, 1)
         }
     }
 }

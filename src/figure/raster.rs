@@ -63,6 +63,13 @@ impl Raster {
     }
 }
 
+/// A finished figure in pixels.
+pub(super) struct Sheet {
+    pub(super) pixels: Pixmap,
+    /// How far below the upper edge the middle of its plot area is, in units of paper.
+    pub(super) middle: f64,
+}
+
 /// White paper.
 pub(super) fn blank_sheet(width: u32, height: u32) -> Result<Pixmap, FigureError> {
     let mut sheet = Pixmap::new(width, height).ok_or(FigureError::Sheet { width, height })?;
@@ -100,13 +107,13 @@ pub(super) fn spans(polygon: &[[f64; 2]], width: usize, height: usize, mut paint
 }
 
 /// Index of the first cell whose centre is at or behind `x`, at most `limit`.
-fn first_centre(x: f64, limit: usize) -> usize {
+pub(super) fn first_centre(x: f64, limit: usize) -> usize {
     // The conversion saturates: negative numbers become 0.
     ((x - 0.5).ceil() as usize).min(limit)
 }
 
-/// An opaque sheet as a PNG file.
-pub(super) fn encode_png(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
+/// An opaque sheet as a PNG file, `zoom` pixels per unit of the coordinates that sizes on paper are given in.
+pub(super) fn encode_png(sheet: &Pixmap, zoom: u32) -> Result<Vec<u8>, FigureError> {
     let rgb: Vec<u8> = sheet.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, sheet.width(), sheet.height());
@@ -114,8 +121,8 @@ pub(super) fn encode_png(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
     encoder.set_pixel_dims(Some(png::PixelDimensions {
-        xppu: style::PIXELS_PER_METRE,
-        yppu: style::PIXELS_PER_METRE,
+        xppu: zoom * style::PIXELS_PER_METRE,
+        yppu: zoom * style::PIXELS_PER_METRE,
         unit: png::Unit::Meter,
     }));
     let mut writer = encoder.write_header()?;

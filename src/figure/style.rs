@@ -39,6 +39,8 @@ pub(super) const TEXT: f64 = 31.0;
 pub(super) const TITLE: f64 = 38.0;
 /// From one line of the title to the next, and from the last to the plot.
 pub(super) const TITLE_LINE: f64 = 52.0;
+/// From one line of a caption to the next.
+pub(super) const CAPTION_LINE: f64 = 44.0;
 /// Width of a colour bar.
 pub(super) const BAR: f64 = 36.0;
 /// What an SVG viewer is asked for, best first; the last one always exists.

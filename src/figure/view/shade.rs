@@ -1,0 +1,239 @@
+use super::super::colour::Colour;
+use super::super::style;
+use super::SurfaceView;
+use super::scene::{EMPTY, FIRST_LINE, Scene, Triangle};
+use crate::surface::vector::{add, dot, norm, scale};
+
+/// The checkerboard's light squares, dark squares.
+const SQUARES: [Colour; 2] = [Colour([250, 243, 224]), Colour([74, 112, 172])];
+/// What the colour is multiplied by on the inner side of an open surface.
+const INNER: [f64; 3] = [0.50, 0.42, 0.36];
+/// Lines in the order of their styles.
+const LINES: [Colour; 2] = [style::INK, Colour([196, 62, 24])];
+pub(super) const OUTLINE: u32 = 0;
+pub(super) const SEAM: u32 = 1;
+/// Light from everywhere; from the eye: it darkens towards the silhouette.
+const AMBIENT: f64 = 0.17;
+const HEAD: f64 = 0.30;
+/// Lamps: direction (right, upward, towards the eye; unit vectors), strength.
+const LAMPS: [([f64; 3], f64); 2] = [([-0.48, 0.68, 0.555], 0.54), ([0.872, 0.155, 0.464], 0.12)];
+/// How far lamps shine around a surface, as the cosine behind 90°.
+const WRAP: f64 = 0.25;
+/// Squares per pixel at which the pattern begins to fade into its mean, and is gone.
+const FADE: [f64; 2] = [0.6, 1.2];
+/// Opacity of mesh edges.
+const EDGE: f64 = 0.55;
+
+/// What is seen at a sample: light, linear, red, green, blue.
+pub(super) struct Shader<'a> {
+    pub(super) view: &'a SurfaceView<'a>,
+    pub(super) scene: &'a Scene<'a>,
+    /// One per corner, in space.
+    pub(super) normals: &'a [[f64; 3]],
+    pub(super) axes: [[f64; 3]; 3],
+    /// Whether the normals point to the outer side.
+    pub(super) outward: bool,
+    pub(super) marked: &'a [bool],
+    /// Samples from a mesh edge that show it; 0: edges are not drawn.
+    pub(super) edges: f64,
+    /// Samples per pixel along each axis.
+    pub(super) samples: f64,
+    pub(super) paints: Paints,
+}
+
+/// Colours as linear light.
+pub(super) struct Paints {
+    paper: [f64; 3],
+    lines: [[f64; 3]; LINES.len()],
+    squares: [[f64; 3]; 2],
+    alarm: [f64; 3],
+    edge: [f64; 3],
+}
+
+impl Paints {
+    pub(super) fn new() -> Paints {
+        Paints {
+            paper: linear(style::PAPER),
+            lines: LINES.map(linear),
+            squares: SQUARES.map(linear),
+            alarm: linear(style::ALARM),
+            edge: linear(style::INK),
+        }
+    }
+}
+
+/// A triangle ready to be shaded. Barycentric coordinates in the picture are affine; those in space are their products
+/// with nearness, normalised: what makes the pattern correct in perspective.
+struct Facet {
+    /// The corner it is numbered by.
+    number: u32,
+    places: [[f64; 3]; 3],
+    /// Of the barycentric coordinates.
+    slopes: [[f64; 2]; 3],
+    uv: [[f64; 2]; 3],
+    /// Right, upward, towards the eye; those of the side that is seen.
+    normals: [[f64; 3]; 3],
+    /// Multiplies the colour.
+    tint: [f64; 3],
+    marked: bool,
+    /// Samples per unit of each barycentric coordinate, where the edge opposite its corner is one of the mesh.
+    edges: [Option<f64>; 3],
+}
+
+impl Shader<'_> {
+    /// Adds the light of each pixel's samples to `sums` for a band of whole pixel rows.
+    pub(super) fn band(&self, first_row: usize, numbers: &[u32], width: usize, sums: &mut [[f64; 3]]) {
+        let s = self.samples as usize;
+        let Paints { paper, lines, .. } = self.paints;
+        let mut facet: Option<Facet> = None;
+        for (r, row) in numbers.chunks_exact(width).enumerate() {
+            for (column, &number) in row.iter().enumerate() {
+                let light = match number {
+                    EMPTY => paper,
+                    FIRST_LINE.. => lines[(number - FIRST_LINE) as usize],
+                    _ => {
+                        let known = facet.take().filter(|facet| facet.number == number);
+                        let known = known.or_else(|| Some(self.facet(number, &self.scene.triangle(number as usize)?)));
+                        let light = known.as_ref().map_or(paper, |f| self.light(f, column, first_row + r));
+                        facet = known;
+                        light
+                    }
+                };
+                let sum = &mut sums[r / s * (width / s) + column / s];
+                *sum = add(*sum, light);
+            }
+        }
+    }
+
+    fn facet(&self, number: u32, triangle: &Triangle) -> Facet {
+        let places = triangle.places;
+        let range = self.view.faces.corner_range(triangle.face);
+        let [c, d] = triangle.corners;
+        let (uv, mut normals) = if triangle.fan {
+            let part = 1.0 / range.len() as f64;
+            let middle = range.clone().map(|c| self.view.uv[c].map(|x| x * part));
+            let middle = middle.fold([0.0; 2], |m, x| [m[0] + x[0], m[1] + x[1]]);
+            let normal = range.map(|c| self.normals[c]).fold([0.0; 3], add);
+            ([self.view.uv[c], self.view.uv[d], middle], [self.normals[c], self.normals[d], scale(part, normal)])
+        } else {
+            ([c, d, c + 2].map(|c| self.view.uv[c]), [c, d, c + 2].map(|c| self.normals[c]))
+        };
+        let [p, q, r] = places;
+        let area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+        // Downward y: a face whose normal points to the eye is run through clockwise on paper, as numbers go.
+        let outer = (area < 0.0) == self.outward;
+        let to_eye = if area < 0.0 { 1.0 } else { -1.0 };
+        normals = normals.map(|n| scale(to_eye, self.axes.map(|axis| dot(axis, n))));
+        let opposite = [[q, r], [r, p], [p, q]];
+        let slopes = opposite.map(|[a, b]| [(a[1] - b[1]) / area, (b[0] - a[0]) / area]);
+        let is_edge = [!triangle.fan, !triangle.fan, true];
+        let edges = [0, 1, 2].map(|i| is_edge[i].then(|| 1.0 / slopes[i][0].hypot(slopes[i][1])));
+        let tint = if outer { [1.0; 3] } else { INNER };
+        Facet { number, places, slopes, uv, normals, tint, marked: self.marked[triangle.face], edges }
+    }
+
+    fn light(&self, facet: &Facet, column: usize, row: usize) -> [f64; 3] {
+        if facet.marked {
+            return self.paints.alarm;
+        }
+        let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
+        let in_picture = facet.barycentric(x, y);
+        let mut weights: [f64; 3] = std::array::from_fn(|i| in_picture[i] * facet.places[i][2]);
+        let total: f64 = weights.iter().sum();
+        weights = weights.map(|w| w / total);
+        let square = self.square(facet, weights, total);
+        let [bright, dark] = self.paints.squares;
+        let colour: [f64; 3] = std::array::from_fn(|k| dark[k] + (bright[k] - dark[k]) * square);
+        let normal = (0..3).fold([0.0; 3], |n, i| add(n, scale(weights[i], facet.normals[i])));
+        let lit = illumination(normal);
+        let colour: [f64; 3] = std::array::from_fn(|k| colour[k] * facet.tint[k] * lit);
+        let on_edge = (0..3).any(|i| facet.edges[i].is_some_and(|samples| in_picture[i] * samples < self.edges));
+        if !on_edge {
+            return colour;
+        }
+        let edge = self.paints.edge;
+        std::array::from_fn(|k| colour[k] + (edge[k] - colour[k]) * EDGE)
+    }
+
+    /// The share of light squares around a point of a triangle: 1 inside of one, 0 inside of a dark one.
+    fn square(&self, facet: &Facet, weights: [f64; 3], total: f64) -> f64 {
+        let mut product = 1.0;
+        for k in 0..2 {
+            let value: f64 = (0..3).map(|i| weights[i] * facet.uv[i][k]).sum();
+            // ∂u = Σ ∂(bᵢ nᵢ) (uᵢ − u) / Σ bᵢ nᵢ with barycentric coordinates b and nearness n.
+            let slope = |axis: usize| {
+                let part = |i: usize| facet.slopes[i][axis] * facet.places[i][2] * (facet.uv[i][k] - value);
+                (part(0) + part(1) + part(2)) / total
+            };
+            let (across, down) = (slope(0), slope(1));
+            // Not hypot: it takes longer than all else here, and what overflows fades as well.
+            let steep = (across * across + down * down).sqrt() * self.samples;
+            let fade = (FADE[1] - steep) / (FADE[1] - FADE[0]);
+            // NaN, of numbers beyond all measure, becomes 0.
+            let fade = fade.max(0.0);
+            if fade == 0.0 {
+                return 0.5;
+            }
+            product *= fade.min(1.0) * stripe(value, across.abs() + down.abs());
+        }
+        0.5 + 0.5 * product
+    }
+}
+
+impl Facet {
+    /// Barycentric coordinates in the picture, none negative, of sum 1.
+    fn barycentric(&self, x: f64, y: f64) -> [f64; 3] {
+        // From the third corner: what rounding there is goes to the first two.
+        let (dx, dy) = (x - self.places[2][0], y - self.places[2][1]);
+        let b = [0, 1].map(|i| (self.slopes[i][0] * dx + self.slopes[i][1] * dy).clamp(0.0, 1.0));
+        // Triangles without area up to rounding.
+        if b.iter().any(|b| b.is_nan()) {
+            return [1.0 / 3.0; 3];
+        }
+        [b[0], b[1], (1.0 - b[0] - b[1]).max(0.0)]
+    }
+}
+
+/// Mean over `[x − w/2, x + w/2]` of the square wave that is 1 on [0, 1), −1 on [1, 2), of period 2.
+fn stripe(x: f64, width: f64) -> f64 {
+    // x modulo 2, and on from there.
+    let x = x - 2.0 * (x / 2.0).floor();
+    let (low, high) = (x - width / 2.0, x + width / 2.0);
+    let inside = low.floor();
+    if high < inside + 1.0 || width < 1e-9 {
+        return if x < 1.0 { 1.0 } else { -1.0 };
+    }
+    // The wave's integral: up to 1 and down again.
+    let integral = |x: f64| 1.0 - (x - 2.0 * (x / 2.0).floor() - 1.0).abs();
+    ((integral(high) - integral(low)) / width).clamp(-1.0, 1.0)
+}
+
+/// Light on a surface whose normal, in coordinates right, upward, towards the eye, has any length.
+fn illumination(normal: [f64; 3]) -> f64 {
+    let length = norm(normal);
+    if length == 0.0 {
+        return AMBIENT + HEAD;
+    }
+    let normal = scale(1.0 / length, normal);
+    let lamps = LAMPS.iter().map(|(direction, strength)| {
+        let cosine = dot(normal, *direction);
+        strength * ((cosine + WRAP) / (1.0 + WRAP)).max(0.0)
+    });
+    AMBIENT + HEAD * normal[2].max(0.0) + lamps.sum::<f64>()
+}
+
+/// Linear light of a colour of sRGB.
+fn linear(Colour(c): Colour) -> [f64; 3] {
+    c.map(|c| {
+        let c = f64::from(c) / 255.0;
+        if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+    })
+}
+
+/// The colour of sRGB of linear light; what is brighter than paper is as bright.
+pub(super) fn encode(light: [f64; 3]) -> [u8; 3] {
+    light.map(|c| {
+        let c = if c <= 0.0031308 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+        (c * 255.0).round() as u8
+    })
+}
