@@ -3,6 +3,7 @@
 pub mod linear;
 pub mod nonlinear;
 mod observer;
+pub mod reduced;
 
 pub use linear::{
     LINEAR_BACKENDS, LinearBackend, LinearSolution, SolveError, Unsuitable, automatic, linear_backend, solve_linear,

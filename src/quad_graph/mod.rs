@@ -1,11 +1,13 @@
 //! The quad graph: vertices, quads, one complex number ρ per quad. All that the energies and system (2) know.
 
+mod curvature;
 pub mod dual;
 mod from_quads;
 mod from_triangles;
 pub mod metric;
 pub mod rho;
 
+pub use curvature::curvature;
 pub use from_quads::RhoSource;
 
 use num_complex::Complex64;

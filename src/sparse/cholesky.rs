@@ -3,7 +3,7 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
-use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, factorize_symbolic_cholesky};
+use faer::sparse::linalg::cholesky::{CholeskySymbolicParams, LltRef, SymbolicCholesky, factorize_symbolic_cholesky};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::traits::ComplexField;
 use faer::{Conj, MatMut, Par, Side};
@@ -39,9 +39,19 @@ impl<'a> Analysis<'a> {
     /// # Errors
     /// [`Breakdown::TooLarge`].
     pub fn new(columns: &'a Columns) -> Result<Self, Breakdown> {
-        let symbolic = factorize_symbolic_cholesky(view(columns), Side::Lower, Default::default(), Default::default())
+        Analysis::with(columns, Default::default())
+    }
+
+    /// Analyses a pattern in faer's terms.
+    pub(super) fn with(columns: &'a Columns, parameters: CholeskySymbolicParams) -> Result<Self, Breakdown> {
+        let symbolic = factorize_symbolic_cholesky(view(columns), Side::Lower, Default::default(), parameters)
             .map_err(|_| Breakdown::TooLarge)?;
         Ok(Analysis { columns, symbolic })
+    }
+
+    /// The analysis without the pattern.
+    pub(super) fn into_symbolic(self) -> SymbolicCholesky<u32> {
+        self.symbolic
     }
 
     /// Factorises the matrix with these values on the pattern. The memory of `spare`, an earlier factor, is used again.
@@ -76,6 +86,11 @@ impl<'a> Analysis<'a> {
 }
 
 impl<T: ComplexField> Cholesky<'_, T> {
+    /// The values of the factor, in faer's order.
+    pub(super) fn into_values(self) -> Vec<T> {
+        self.values
+    }
+
     /// Overwrites the columns of `right` (each as long as the matrix, one behind the other) with the solutions.
     pub fn solve_in_place(&self, right: &mut [T]) {
         let size = self.symbolic.nrows();

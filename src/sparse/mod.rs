@@ -2,7 +2,9 @@
 
 mod cholesky;
 mod pattern;
+mod pruned;
 
 pub use cholesky::{Analysis, Breakdown, Cholesky};
 pub(crate) use pattern::pairs_of;
 pub use pattern::{Columns, Pattern, Stencils};
+pub use pruned::{Columns2, PrunedCholesky};

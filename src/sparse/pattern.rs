@@ -128,6 +128,11 @@ impl Pattern {
         self.columns.size()
     }
 
+    /// The entries alone, once values have been filled in.
+    pub fn into_columns(self) -> Columns {
+        self.columns
+    }
+
     /// The entries of the pairs i ≥ j of a piece.
     pub fn slots(&self, list: usize, piece: usize, arity: usize) -> &[u32] {
         let pairs = arity * (arity + 1) / 2;

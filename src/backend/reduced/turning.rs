@@ -1,0 +1,83 @@
+//! A boundary that closes up smoothly: what the free map starts from.
+
+use num_complex::Complex64;
+
+use super::Reduction;
+use super::conjugate::project;
+use crate::quad_graph::QuadGraph;
+
+/// A start for the free map, after Sawhney and Crane (Boundary First Flattening, 2017): the curvature of the inside is moved to
+/// the boundary, as a conformal map of the lowest scaling there does it, which tells how the boundary turns; edges keep
+/// their lengths but for what closes the polygon; then the projection to ker M.
+///
+/// `curvature` (`nv`): what the angles around each vertex lack of 2π, on the boundary of π; its sum is 2π.
+pub(super) fn start(reduction: &Reduction, curvature: &[f64], lengths: &[f64]) -> Vec<Complex64> {
+    let turning = turning(reduction, curvature);
+    let n = turning.len();
+    let mut angle = 0.0;
+    let directions: Vec<Complex64> = (0..n)
+        .map(|k| {
+            // The edge from k leaves in the direction that vertex k turns to.
+            angle += turning[k];
+            Complex64::cis(angle)
+        })
+        .collect();
+    let lengths = closed(lengths, &directions);
+    let mut z = Vec::with_capacity(n);
+    let mut place = Complex64::ZERO;
+    for k in 0..n {
+        z.push(place);
+        place += lengths[k] * directions[k];
+    }
+    project(reduction, &z)
+}
+
+/// `κ + f / 2` at every boundary vertex, f the flux of the curvature inside. H sees each colour for itself: each carries all
+/// of it, its own and what it takes over from its neighbours of the other.
+fn turning(reduction: &Reduction, curvature: &[f64]) -> Vec<f64> {
+    let graph = reduction.graph;
+    let mut is_boundary = vec![false; graph.vertices];
+    for &v in &graph.boundary {
+        is_boundary[v as usize] = true;
+    }
+    let mut doubled: Vec<f64> =
+        curvature.iter().zip(&is_boundary).map(|(&omega, &outer)| if outer { 0.0 } else { omega }).collect();
+    // Inside, every neighbour is the next vertex in one quad.
+    let degrees = next_counts(graph);
+    for quad in &graph.quads {
+        for k in 0..4 {
+            let (v, w) = (quad[k] as usize, quad[(k + 1) % 4] as usize);
+            if !is_boundary[v] {
+                doubled[w] += curvature[v] / f64::from(degrees[v]);
+            }
+        }
+    }
+    let flux = reduction.whole_flux(&doubled);
+    graph.boundary.iter().zip(flux).map(|(&v, f)| curvature[v as usize] + 0.5 * f).collect()
+}
+
+/// The number of quads around each vertex.
+fn next_counts(graph: &QuadGraph) -> Vec<u32> {
+    let mut counts = vec![0; graph.vertices];
+    for &v in graph.quads.iter().flatten() {
+        counts[v as usize] += 1;
+    }
+    counts
+}
+
+/// The lengths nearest to these, `Σ (l' − l)² / l` the least, with which edges of these directions close up.
+fn closed(lengths: &[f64], directions: &[Complex64]) -> Vec<f64> {
+    let (mut gap, mut matrix) = (Complex64::ZERO, [0.0; 3]);
+    for (&l, d) in lengths.iter().zip(directions) {
+        gap += l * d;
+        matrix = [matrix[0] + l * d.re * d.re, matrix[1] + l * d.re * d.im, matrix[2] + l * d.im * d.im];
+    }
+    let [p, q, r] = matrix;
+    let determinant = p * r - q * q;
+    let pull = Complex64::new(r * gap.re - q * gap.im, p * gap.im - q * gap.re) / determinant;
+    if !pull.is_finite() {
+        return lengths.to_vec();
+    }
+    let share = |d: &Complex64| 1.0 - (d.re * pull.re + d.im * pull.im);
+    lengths.iter().zip(directions).map(|(l, d)| l * share(d)).collect()
+}

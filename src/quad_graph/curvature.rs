@@ -1,0 +1,42 @@
+//! Angles around vertices: where a surface is curved, and how its boundary turns.
+
+use std::f64::consts::{PI, TAU};
+
+use super::{QuadGraph, difference};
+use crate::surface::disc::Disc;
+use crate::surface::vector::{cross, dot, norm, scale, sub};
+
+/// What the angles of the faces around each vertex of the graph (`nv`) lack of 2π, on the boundary of π; 0 at dual vertices.
+/// The sum is 2π (Gauss and Bonnet).
+///
+/// A quad's angles are those of its edges in R³, and what they lack of 2π, where it is not flat, is spread over its
+/// corners. With `normals` (`nf × 3`, unit) they are those of the edges projected on the tangent planes.
+pub fn curvature(disc: &Disc, graph: &QuadGraph, normals: Option<&[[f64; 3]]>) -> Vec<f64> {
+    let mut curvature = vec![0.0; graph.vertices];
+    curvature[..graph.primal].fill(TAU);
+    for &v in graph.boundary.iter().filter(|&&v| !graph.is_dual(v)) {
+        curvature[v as usize] = PI;
+    }
+    for (f, polygon) in disc.faces.iter().enumerate() {
+        let n = polygon.len();
+        let given = normals.map(|normals| normals[f]);
+        let edge = |k: usize| {
+            let d = difference(&disc.positions, polygon[k % n], polygon[(k + 1) % n]);
+            given.map_or(d, |n| sub(d, scale(dot(d, n), n)))
+        };
+        // Twice the area: upwards.
+        let up = given.unwrap_or_else(|| cross(sub(edge(0), scale(-1.0, edge(1))), sub(edge(1), scale(-1.0, edge(2)))));
+        let angle = |k: usize| {
+            let (back, ahead) = (scale(-1.0, edge(k + n - 1)), edge(k));
+            let area = cross(ahead, back);
+            let angle = norm(area).atan2(dot(ahead, back));
+            if dot(area, up) < 0.0 { TAU - angle } else { angle }
+        };
+        let whole = PI * (n as f64 - 2.0);
+        let sum: f64 = (0..n).map(angle).sum();
+        for k in 0..n {
+            curvature[polygon[k] as usize] -= angle(k) + (whole - sum) / n as f64;
+        }
+    }
+    curvature
+}
