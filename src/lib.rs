@@ -75,6 +75,7 @@ pub mod io;
 pub mod libigl;
 pub mod map;
 pub mod objective;
+pub mod periodic;
 pub mod problem;
 pub mod quad_graph;
 pub mod report;

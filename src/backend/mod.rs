@@ -3,6 +3,7 @@
 pub mod linear;
 pub mod nonlinear;
 mod observer;
+pub mod periodic;
 pub mod reduced;
 
 pub use linear::{

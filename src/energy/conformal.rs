@@ -59,8 +59,12 @@ pub fn weights(graph: &QuadGraph, weight: Weight) -> Result<Vec<f64>, NonPositiv
 
 /// The residual of (2), `r = z3 − z1 − iρ(z2 − z0)`, on quad `q`.
 pub fn residual(graph: &QuadGraph, q: usize, z: &[Complex64]) -> Complex64 {
-    let [z0, z1, z2, z3] = graph.quads[q].map(|v| z[v as usize]);
-    z3 - z1 - Complex64::I * graph.rho[q] * (z2 - z0)
+    residual_at(graph.rho[q], graph.quads[q].map(|v| z[v as usize]))
+}
+
+/// The residual of (2) where the corners of the quad are at `z0, z1, z2, z3`.
+pub fn residual_at(rho: Complex64, [z0, z1, z2, z3]: [Complex64; 4]) -> Complex64 {
+    z3 - z1 - Complex64::I * rho * (z2 - z0)
 }
 
 /// `H = Σ w |r|²`.
@@ -70,9 +74,15 @@ pub fn value(graph: &QuadGraph, w: &[f64], z: &[Complex64]) -> f64 {
 
 /// `Aᴴ W A z` (`nv`), which is ∂H/∂z̄: half the gradient of H, ∂H/∂x + i ∂H/∂y = 2 Aᴴ W A z.
 pub fn normal_product(graph: &QuadGraph, w: &[f64], z: &[Complex64]) -> Vec<Complex64> {
+    normal_product_at(graph, w, |q| graph.quads[q].map(|v| z[v as usize]))
+}
+
+/// `Aᴴ W r` (`nv`) with r the residuals where quad `q` has its corners at `corners(q)`: [`normal_product`] of maps that
+/// are several-valued on the vertices.
+pub fn normal_product_at(graph: &QuadGraph, w: &[f64], corners: impl Fn(usize) -> [Complex64; 4]) -> Vec<Complex64> {
     let mut product = vec![Complex64::ZERO; graph.vertices];
     for (q, &w) in w.iter().enumerate() {
-        let r = w * residual(graph, q, z);
+        let r = w * residual_at(graph.rho[q], corners(q));
         for (v, a) in graph.quads[q].into_iter().zip(row(graph.rho[q])) {
             product[v as usize] += a.conj() * r;
         }
@@ -82,10 +92,15 @@ pub fn normal_product(graph: &QuadGraph, w: &[f64], z: &[Complex64]) -> Vec<Comp
 
 /// `|Aᴴ| W |A| |z|` (`nv`): the size of the terms that [`normal_product`] adds up, and so of its rounding error.
 pub fn normal_product_scale(graph: &QuadGraph, w: &[f64], z: &[Complex64]) -> Vec<f64> {
+    normal_product_scale_at(graph, w, |q| graph.quads[q].map(|v| z[v as usize]))
+}
+
+/// The same for [`normal_product_at`].
+pub fn normal_product_scale_at(graph: &QuadGraph, w: &[f64], corners: impl Fn(usize) -> [Complex64; 4]) -> Vec<f64> {
     let mut scale = vec![0.0; graph.vertices];
     for (q, &w) in w.iter().enumerate() {
         let a = row(graph.rho[q]).map(Complex64::norm);
-        let terms: f64 = graph.quads[q].iter().zip(a).map(|(&v, a)| a * z[v as usize].norm()).sum();
+        let terms: f64 = corners(q).iter().zip(a).map(|(z, a)| a * z.norm()).sum();
         for (v, a) in graph.quads[q].into_iter().zip(a) {
             scale[v as usize] += w * a * terms;
         }

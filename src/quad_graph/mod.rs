@@ -5,10 +5,12 @@ pub mod dual;
 mod from_quads;
 mod from_triangles;
 pub mod metric;
+mod periods;
 pub mod rho;
 
 pub use curvature::curvature;
 pub use from_quads::RhoSource;
+pub use periods::{Periods, PeriodsError};
 
 use num_complex::Complex64;
 

@@ -9,6 +9,7 @@ pub mod edges;
 mod faces;
 pub mod generate;
 mod holes;
+pub mod homology;
 pub mod normals;
 pub mod orientation;
 pub mod parameters;

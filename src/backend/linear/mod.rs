@@ -3,7 +3,7 @@
 mod cotan;
 mod lu;
 mod nalgebra_cholesky;
-mod normal;
+pub(super) mod normal;
 mod qr;
 
 use num_complex::Complex64;
@@ -178,7 +178,7 @@ impl SolveError {
 }
 
 /// The largest relative residual that passes for a solution.
-const ACCEPTED_RESIDUAL: f64 = 1e-8;
+pub(super) const ACCEPTED_RESIDUAL: f64 = 1e-8;
 
 /// Solves `problem` by the backend of that name, and checks the solution; `auto`: see [`automatic`].
 ///

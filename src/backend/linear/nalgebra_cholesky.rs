@@ -6,6 +6,7 @@ use num_complex::Complex64;
 use super::normal::{in_real_columns, pattern, real_normal_equations, real_values, solve_and_refine, usable_weights};
 use super::{LinearBackend, SolveError, Unsuitable};
 use crate::backend::{Observer, Phase};
+use crate::energy::conformal;
 use crate::problem::LinearProblem;
 
 /// The real normal equations by nalgebra-sparse's Cholesky, which has no fill-reducing ordering: a row to compare with.
@@ -29,7 +30,7 @@ impl LinearBackend for NalgebraCholesky {
         watch.phase(Phase::Assemble);
         let pattern = pattern(problem.graph, &problem.elimination);
         let size = pattern.size();
-        let values = real_values(&pattern, problem, &weights);
+        let values = real_values(&pattern, problem.graph, &problem.elimination, &weights);
         // Its analysis reads both triangles.
         let mut both = CooMatrix::new(size, size);
         for column in 0..size {
@@ -45,7 +46,8 @@ impl LinearBackend for NalgebraCholesky {
         let factor = CscCholesky::factor(&CscMatrix::from(&both))
             .map_err(|_| SolveError::NotPositiveDefinite { backend: self.name(), size })?;
         watch.phase(Phase::Solve);
-        Ok(solve_and_refine(problem, &weights, |y| {
+        let product = |z: &[Complex64]| conformal::normal_product(problem.graph, &weights, z);
+        Ok(solve_and_refine(&problem.elimination, product, |y| {
             in_real_columns(y, |columns| {
                 let mut right = DMatrix::from_column_slice(size, 2, columns);
                 factor.solve_mut(&mut right);

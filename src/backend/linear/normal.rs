@@ -14,12 +14,12 @@ use crate::quad_graph::QuadGraph;
 use crate::sparse::{Analysis, Pattern, Stencils, pairs_of};
 
 /// The pattern of the normal equations: the free vertices of each quad are coupled.
-pub(super) fn pattern(graph: &QuadGraph, elimination: &Elimination) -> Pattern {
+pub(crate) fn pattern(graph: &QuadGraph, elimination: &Elimination) -> Pattern {
     Pattern::new(&[&Stencils::new(&graph.quads)], &elimination.unknown, elimination.unknowns())
 }
 
 /// The sum of the quads' 4 × 4 blocks, each symmetric or Hermitian, on the pattern.
-pub(super) fn assemble<T: Copy + std::ops::AddAssign>(
+pub(crate) fn assemble<T: Copy + std::ops::AddAssign>(
     pattern: &Pattern,
     graph: &QuadGraph,
     elimination: &Elimination,
@@ -41,26 +41,31 @@ pub(super) fn assemble<T: Copy + std::ops::AddAssign>(
 }
 
 /// The values of D on the pattern.
-pub(super) fn real_values(pattern: &Pattern, problem: &LinearProblem, weights: &[f64]) -> Vec<f64> {
-    let LinearProblem { graph, elimination, .. } = problem;
+pub(crate) fn real_values(
+    pattern: &Pattern,
+    graph: &QuadGraph,
+    elimination: &Elimination,
+    weights: &[f64],
+) -> Vec<f64> {
     assemble(pattern, graph, elimination, 0.0, |q| {
         conformal::block(graph.rho[q], weights[q]).map(|row| row.map(|entry| entry.re))
     })
 }
 
 /// From y = 0 one solve with the negative residual of the normal equations, and a second as iterative refinement.
-/// `correct` overwrites a residual with the solution it asks for.
-pub(super) fn solve_and_refine(
-    problem: &LinearProblem,
-    weights: &[f64],
+/// `product` is `Aᴴ W A z`; `correct` overwrites a residual with the solution it asks for.
+pub(crate) fn solve_and_refine(
+    elimination: &Elimination,
+    product: impl Fn(&[Complex64]) -> Vec<Complex64>,
     mut correct: impl FnMut(&mut [Complex64]),
 ) -> Vec<Complex64> {
-    let mut z = problem.elimination.z0.clone();
+    let mut z = elimination.z0.clone();
     for _ in 0..2 {
-        let product = conformal::normal_product(problem.graph, weights, &z);
-        let mut y: Vec<Complex64> = problem.elimination.free.iter().map(|&v| product[v as usize]).collect();
+        let product = product(&z);
+        let mut y: Vec<Complex64> = elimination.free.iter().map(|&v| product[v as usize]).collect();
+        drop(product);
         correct(&mut y);
-        for (&v, y) in problem.elimination.free.iter().zip(&y) {
+        for (&v, y) in elimination.free.iter().zip(&y) {
             z[v as usize] -= y;
         }
     }
@@ -68,7 +73,7 @@ pub(super) fn solve_and_refine(
 }
 
 /// Splits complex values into two real columns, lets `solve` overwrite them, and puts them together again.
-pub(super) fn in_real_columns(y: &mut [Complex64], solve: impl FnOnce(&mut [f64])) {
+pub(crate) fn in_real_columns(y: &mut [Complex64], solve: impl FnOnce(&mut [f64])) {
     let size = y.len();
     let mut columns = vec![0.0; 2 * size];
     for (k, y) in y.iter().enumerate() {
@@ -112,13 +117,14 @@ impl LinearBackend for RealCholesky {
         let weights = usable_weights(self, problem)?;
         watch.phase(Phase::Assemble);
         let pattern = pattern(problem.graph, &problem.elimination);
-        let values = real_values(&pattern, problem, &weights);
+        let values = real_values(&pattern, problem.graph, &problem.elimination, &weights);
         watch.phase(Phase::Factor);
         let broken = |reason| SolveError::broken(self, problem, reason);
         let analysis = Analysis::new(&pattern.columns).map_err(broken)?;
         let factor = analysis.factorise(&values, None).map_err(broken)?;
         watch.phase(Phase::Solve);
-        Ok(solve_and_refine(problem, &weights, |y| in_real_columns(y, |columns| factor.solve_in_place(columns))))
+        let product = |z: &[Complex64]| conformal::normal_product(problem.graph, &weights, z);
+        Ok(solve_and_refine(&problem.elimination, product, |y| in_real_columns(y, |c| factor.solve_in_place(c))))
     }
 }
 
@@ -151,7 +157,8 @@ impl LinearBackend for HermitianCholesky {
         let analysis = Analysis::new(&pattern.columns).map_err(broken)?;
         let factor = analysis.factorise(&values, None).map_err(broken)?;
         watch.phase(Phase::Solve);
-        Ok(solve_and_refine(problem, &weights, |y| factor.solve_in_place(y)))
+        let product = |z: &[Complex64]| conformal::normal_product(graph, &weights, z);
+        Ok(solve_and_refine(elimination, product, |y| factor.solve_in_place(y)))
     }
 }
 
