@@ -8,7 +8,8 @@
 //! z3 − z1 = iρ (z2 − z0)                                                     (2)
 //! ```
 //!
-//! A triangle mesh becomes such a *quad graph* by a dual vertex per face; one quad stands for each edge.
+//! A triangle mesh becomes such a *quad graph* by a dual vertex per face; one quad stands for each edge. The boundary of a set of
+//! voxels is one with squares for quads, seen along estimated normals.
 //!
 //! # The pipeline
 //!
@@ -20,15 +21,16 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`surface`] | positions and polygons; [`Diagnosis`](surface::diagnosis::Diagnosis): what it is and what is wrong; [`Disc`](surface::disc::Disc); generated surfaces |
+//! | [`surface`] | positions and polygons; [`Diagnosis`](surface::diagnosis::Diagnosis): what it is and what is wrong; [`Disc`](surface::disc::Disc) and how a surface is [cut](surface::cut) to one; [`digital`](surface::digital): voxels, their boundaries; estimated [`normals`](surface::normals); generated surfaces |
 //! | [`quad_graph`] | quads, ρ, boundary; rest lengths and areas; dual points |
 //! | [`energy`] | H, C, A, L, L' with all derivatives; `H + 0.5 L` as an expression |
 //! | [`constraint`] | held vertices, shapes of the boundary, gauges; elimination x = Z y + x0 |
 //! | [`problem`], [`objective`] | the linear problem; the nonlinear one |
 //! | [`backend`] | direct solvers and minimisers by name |
+//! | [`periodic`] | maps of closed surfaces of genus 1: periods, their ratio, textures without seams |
 //! | [`map`] | all of it in one call |
 //! | [`distortion`], [`report`], [`figure`] | how good a map is, its record, its picture |
-//! | [`io`], [`input`] | mesh files; surfaces by file or name |
+//! | [`io`], [`input`] | mesh files, volumes; surfaces by file or name |
 //! | [`verify`], [`libigl`] | the cotan equivalence, checked against libigl itself |
 //! | [`experiment`] | configurations, runs, tables, plots |
 //! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
@@ -51,6 +53,7 @@
 //! |---|---|
 //! | (1) `ρ = (c − ip)/‖d02‖²` | [`quad_graph::rho::extrinsic`], [`quad_graph::rho::with_normal`] |
 //! | (2) as a matrix | [`problem::system`]; one row: [`energy::conformal::row`] |
+//! | ρ of a surfel, `(2 n3 − i(n1² − n2²))/(2 − (n1 + n2)²)` | [`quad_graph::rho::with_normal`] on [`quad_graph::TangentPlanes`] |
 //! | §2.3 ρ of triangle meshes, `½(cot α + cot β)` | [`quad_graph::QuadGraph::from_triangles`], [`quad_graph::dual`] |
 //! | H, and ∂H/∂z̄ = Aᴴ W A z | [`energy::conformal::value`], [`energy::conformal::normal_product`] |
 //! | C | [`energy::Circle`] |

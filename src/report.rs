@@ -1,11 +1,15 @@
 //! The record of a run: everything that a table or figure is made from. Field names are fixed; others may be added.
 
+use num_complex::Complex64;
 use serde::Serialize;
 
 use crate::distortion::Distortion;
 use crate::input::Input;
-use crate::map::{Map, Mapped};
+use crate::map::{Domain, Exactly, Map, Mapped};
+use crate::periodic::PeriodsRecord;
 use crate::quad_graph::QuadGraph;
+use crate::surface::cut::CutRecord;
+use crate::surface::digital::{Adjacency, Digital};
 use crate::surface::disc::Disc;
 use crate::surface::topology::Component;
 
@@ -14,6 +18,8 @@ use crate::surface::topology::Component;
 pub struct Report {
     /// What was mapped.
     pub input: InputRecord,
+    /// What was done to make it a disc, or closed.
+    pub cut: Option<CutRecord>,
     /// Its quad graph.
     pub quad_graph: QuadGraphRecord,
     /// Energies of the map.
@@ -22,6 +28,8 @@ pub struct Report {
     pub solver: SolverRecord,
     /// How good it is.
     pub distortion: Distortion,
+    /// Periodic maps: the periods.
+    pub periods: Option<PeriodsRecord>,
     /// Against the exact map, where that is known.
     pub error: Option<ErrorRecord>,
 }
@@ -43,6 +51,33 @@ pub struct InputRecord {
     pub euler: i64,
     /// Genus.
     pub genus: Option<u64>,
+    /// Digital surfaces: the voxels and their boundary.
+    pub digital: Option<DigitalRecord>,
+}
+
+/// The voxels of a digital surface.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DigitalRecord {
+    /// Number of voxels.
+    pub voxels: usize,
+    /// Interior adjacency: what became of edges where four surfels meet.
+    pub adjacency: Adjacency,
+    /// Which component of the boundary was mapped.
+    pub component: usize,
+    /// Surfels of every component, largest first.
+    pub components: Vec<usize>,
+}
+
+impl DigitalRecord {
+    /// The record of a digital surface.
+    pub fn new(digital: &Digital) -> Self {
+        DigitalRecord {
+            voxels: digital.solid.len(),
+            adjacency: digital.adjacency,
+            component: digital.component,
+            components: digital.components.clone(),
+        }
+    }
 }
 
 /// The quad graph.
@@ -102,6 +137,8 @@ pub struct SolverRecord {
     pub seconds: Seconds,
     /// Smallest singular value of the Jacobian, of nonlinear problems.
     pub smallest_singular_value: Option<f64>,
+    /// `circle`, `lengths`: what the boundary meets exactly, H the lowest under it; none: the energy's minimum.
+    pub exactly: Option<Exactly>,
 }
 
 /// Wall-clock seconds by phase.
@@ -133,14 +170,19 @@ pub struct ErrorRecord {
 impl Report {
     /// The record of a map.
     pub fn new(input: &Input, mapped: &Mapped, seconds: Seconds) -> Self {
-        let Mapped { component, disc, graph, map, distortion, .. } = mapped;
-        let vertices = input.surface.positions.len();
+        let Mapped { component, domain, map, distortion, .. } = mapped;
+        let Domain { disc, graph, .. } = domain;
+        // The exact periods of generated surfaces are periods.
+        let exact = input.period.map(|[re, im]| Complex64::new(re, im));
+        let periods = mapped.torus.as_ref().and_then(|torus| PeriodsRecord::new(disc, torus, exact).ok());
         Report {
-            input: InputRecord::new(&input.source, disc.faces.arity(), vertices, component),
+            input: InputRecord::new(input, component),
+            cut: Some(mapped.cut.clone()).filter(|cut| !cut.is_empty()),
             quad_graph: QuadGraphRecord::new(graph),
             energy: EnergyRecord::new(map),
             solver: SolverRecord::new(map, distortion, seconds),
             distortion: distortion.clone(),
+            periods,
             error: input.exact.as_ref().filter(|_| map.anchored).map(|w| ErrorRecord::new(w, disc, map)),
         }
     }
@@ -155,32 +197,36 @@ impl EnergyRecord {
 }
 
 impl ErrorRecord {
-    /// The distance of a map to the exact one, `w` at the vertices of the source, over the vertices of the mesh.
+    /// The distance of a map to the exact one, `w` at the vertices of the source, over the vertices that both have.
     pub fn new(w: &[[f64; 2]], disc: &Disc, map: &Map) -> Self {
-        let distances = disc.source_vertex.iter().zip(&map.z).map(|(&v, z)| {
-            let [x, y] = w[v as usize];
-            (z.re - x).hypot(z.im - y)
-        });
-        let (mut max, mut squares) = (0.0f64, 0.0);
+        let both = disc.source_vertex.iter().zip(&map.z).filter_map(|(&v, z)| Some((w.get(v as usize)?, z)));
+        let distances = both.map(|(&[x, y], z)| (z.re - x).hypot(z.im - y));
+        let (mut max, mut squares, mut count) = (0.0f64, 0.0, 0usize);
         for d in distances {
             max = max.max(d);
             squares += d * d;
+            count += 1;
         }
-        ErrorRecord { max, rms: (squares / disc.source_vertex.len() as f64).sqrt() }
+        ErrorRecord { max, rms: (squares / count as f64).sqrt() }
     }
 }
 
 impl InputRecord {
     /// The record of a surface of one component.
-    pub fn new(path: &str, corners: Option<usize>, vertices: usize, component: &Component) -> Self {
+    pub fn new(input: &Input, component: &Component) -> Self {
         InputRecord {
-            path: path.to_owned(),
-            kind: if corners == Some(3) { "triangle" } else { "quad" },
-            vertices,
+            path: input.source.clone(),
+            kind: match (&input.digital, input.surface.faces.arity()) {
+                (Some(_), _) => "digital",
+                (None, Some(3)) => "triangle",
+                _ => "quad",
+            },
+            vertices: input.surface.positions.len(),
             faces: component.faces,
             boundary_loops: component.boundary_loops.len(),
             euler: component.euler(),
             genus: component.genus(),
+            digital: input.digital.as_ref().map(DigitalRecord::new),
         }
     }
 }
@@ -194,7 +240,7 @@ impl QuadGraphRecord {
             boundary_vertices: graph.boundary.len(),
             min_re_rho: graph.min_re_rho(),
             negative_rho: graph.rho.iter().filter(|rho| rho.re <= 0.0).count(),
-            clamped: 0,
+            clamped: graph.tilted,
         }
     }
 }
@@ -212,6 +258,7 @@ impl SolverRecord {
             residual: map.residual,
             seconds,
             smallest_singular_value: map.smallest_singular_value,
+            exactly: map.exactly,
         }
     }
 }

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 
 use crate::backend::{Observer, Phase};
 use crate::libigl::{Environment, Harmonic, LibiglError, harmonic};
-use crate::map::{Boundary, Map, MapError, MapOptions};
+use crate::map::{Boundary, Domain, Map, MapError, MapOptions};
 use crate::surface::Surface;
 use crate::surface::diagnosis::Diagnosis;
 use crate::surface::disc::{Disc, NotADisc};
@@ -81,7 +81,7 @@ pub fn cotan_map(surface: &Surface, watch: &mut dyn Observer) -> Result<CotanMap
         return Err(VerifyError::NotTriangles { corners: disc.faces.arity().unwrap_or(0) });
     }
     let options = MapOptions { boundary: Boundary::Fixed, dual: "circumcentre".to_owned(), ..MapOptions::default() };
-    let graph = options.quad_graph(&disc)?;
+    let Domain { disc, graph, .. } = Domain::of_positions(disc, &options)?;
     let map = options.solve(&graph, options.fixed(&disc, &graph)?, watch)?;
     Ok(CotanMap { disc, map })
 }

@@ -16,5 +16,6 @@ pub use observer::{Iteration, Observer, Phase, Silent};
 /// What `--solver` takes: `auto`, and all backends by name.
 pub fn solver_names() -> Vec<&'static str> {
     let direct = LINEAR_BACKENDS.iter().map(|b| b.name());
-    std::iter::once("auto").chain(direct).chain(MINIMISERS.iter().map(|m| m.name())).collect()
+    let iterative = MINIMISERS.iter().map(|m| m.name());
+    ["auto", reduced::NAME].into_iter().chain(direct).chain(iterative).collect()
 }

@@ -3,29 +3,30 @@ use std::io::Write;
 use anyhow::Result;
 use clap::Args;
 
-use riemap::input::Input;
-use riemap::surface::diagnosis::{Diagnosis, Severity};
+use riemap::surface::diagnosis::Severity;
+use riemap::surface::digital::Digital;
 use riemap::surface::disc::Disc;
 use riemap::surface::topology::Component;
 
 use super::plural;
+use super::source::Source;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// A mesh file (.obj .off .ply .stl), or a generated surface such as `graph:cos+cos?n=33`
-    #[arg(value_name = "MESH")]
-    mesh: String,
+    #[command(flatten)]
+    source: Source,
     /// List the vertices of the boundary in order, surface on the left (from 0, as --pin and --positions count)
     #[arg(long)]
     boundary: bool,
 }
 
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
-    let input = Input::open(&arguments.mesh)?;
-    let diagnosis = Diagnosis::new(&input.surface);
+    let input = arguments.source.open()?;
+    let diagnosis = input.diagnosis();
     let topology = &diagnosis.topology;
     let faces = &input.surface.faces;
     let kind = match faces.arity() {
+        _ if input.digital.is_some() => "digital surface",
         Some(3) => "triangle mesh",
         Some(4) => "quad mesh",
         Some(_) => "polygon mesh",
@@ -39,8 +40,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
         plural(topology.edges.len(), "edge", "edges"),
         plural(faces.len(), "face", "faces")
     )?;
+    if let Some(digital) = &input.digital {
+        describe_digital(digital, out)?;
+    }
     if input.surface.face_normals.is_some() && faces.arity() == Some(4) {
-        writeln!(out, "normals are given for all faces (--rho normals)")?;
+        writeln!(out, "normals are given for all faces (--normals file)")?;
     } else if let Some(face) = input.face_without_normal {
         writeln!(out, "normals are given, but not for all faces: face {face} has none")?;
     }
@@ -69,6 +73,30 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     match diagnosis.fatal().count() {
         0 => writeln!(out, "A disc: ready for `riemap map`.")?,
         n => writeln!(out, "Not ready for `riemap map`: {}.", plural(n, "problem", "problems"))?,
+    }
+    Ok(())
+}
+
+/// The voxels, and which component of their boundary this is.
+fn describe_digital(digital: &Digital, out: &mut dyn Write) -> Result<()> {
+    const SHOWN: usize = 8;
+    let [x, y, z] = digital.solid.size();
+    writeln!(
+        out,
+        "{} in a box of {x} × {y} × {z}; interior adjacency {}",
+        plural(digital.solid.len(), "voxel", "voxels"),
+        digital.adjacency
+    )?;
+    let sizes: Vec<String> = digital.components.iter().take(SHOWN).map(usize::to_string).collect();
+    let more = if digital.components.len() > SHOWN { ", …" } else { "" };
+    match digital.components.len() {
+        1 => {}
+        n => writeln!(
+            out,
+            "this is component {} of {n} of their boundary, which have {}{more} surfels (--component)",
+            digital.component,
+            sizes.join(", ")
+        )?,
     }
     Ok(())
 }

@@ -2,18 +2,30 @@ use std::io::Write;
 
 use anyhow::Result;
 
-use riemap::backend::{LINEAR_BACKENDS, MINIMISERS};
+use riemap::backend::{LINEAR_BACKENDS, MINIMISERS, reduced};
 use riemap::constraint::Shape;
 use riemap::energy::ENERGIES;
 use riemap::quad_graph::dual::DUAL_POINTS;
 use riemap::surface::generate::SURFACES;
+use riemap::surface::normals::NORMAL_ESTIMATORS;
 
 pub fn run(out: &mut dyn Write) -> Result<()> {
     section(
         out,
         "surfaces",
-        "files .obj .off .ply .stl, or generated:",
+        "meshes .obj .off .ply .stl, volumes .vol .longvol .pgm3d .npy .raw, or generated:",
         SURFACES.iter().map(|s| (format!("{}?{}", s.name, s.synopsis()), s.about.to_owned())),
+    )?;
+    section(
+        out,
+        "estimators of normals",
+        "(--normals NAME?parameter=value; of digital surfaces and quad meshes)",
+        NORMAL_ESTIMATORS.iter().map(|n| {
+            let parameters: Vec<&str> = n.parameters().iter().map(|p| p.name).collect();
+            let parameters =
+                if parameters.is_empty() { String::new() } else { format!(" ({})", parameters.join(", ")) };
+            (n.name().to_owned(), format!("{}{parameters}", n.about()))
+        }),
     )?;
     section(
         out,
@@ -24,7 +36,7 @@ pub fn run(out: &mut dyn Write) -> Result<()> {
     section(
         out,
         "constraints",
-        "(--boundary circle|free|fixed; fixed: --shape, --positions FILE, --hold whole|primal; --pin V=X,Y; --fix K)",
+        "(--boundary circle|free|fixed|periodic; fixed: --shape, --positions FILE, --hold whole|primal; --pin V=X,Y; --fix K)",
         Shape::ALL.iter().map(|(name, about, _)| (name.to_string(), about.to_string())),
     )?;
     section(
@@ -42,8 +54,9 @@ pub fn run(out: &mut dyn Write) -> Result<()> {
     section(
         out,
         "iterative backends",
-        "(--solver; auto takes the first)",
-        MINIMISERS.iter().map(|m| (m.name().to_owned(), m.description().to_owned())),
+        "(--solver; auto takes reduced where it suits, else the next)",
+        std::iter::once((reduced::NAME.to_owned(), reduced::DESCRIPTION.to_owned()))
+            .chain(MINIMISERS.iter().map(|m| (m.name().to_owned(), m.description().to_owned()))),
     )?;
     Ok(())
 }

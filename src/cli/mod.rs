@@ -6,13 +6,14 @@ mod map;
 mod progress;
 mod reproduce;
 mod run;
+mod source;
 mod verify;
 
 use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
-/// Discrete conformal maps of quad meshes and triangle meshes.
+/// Discrete conformal maps of quad meshes, triangle meshes and digital surfaces.
 #[derive(Parser)]
 #[command(version, max_term_width = 110)]
 pub struct Arguments {
@@ -32,7 +33,7 @@ enum Command {
     Run(run::Arguments),
     /// Run every experiment of the clone, and draw its figures
     Reproduce(reproduce::Arguments),
-    /// List surfaces, energies, constraints, dual points and backends
+    /// List surfaces, estimators of normals, energies, constraints, dual points and backends
     List,
 }
 

@@ -1,19 +1,22 @@
 //! How far a map is from being conformal, from preserving area and length, and from being one-to-one.
 
 mod boundary;
+mod image;
 mod predicate;
 mod singular;
 
 pub use boundary::{boundary_crossing, out_of_order};
+pub use image::Image;
 pub use singular::{FaceMap, face_maps};
 
 use num_complex::Complex64;
 use serde::Serialize;
 
 use crate::energy::conformal;
-use crate::quad_graph::QuadGraph;
-use crate::surface::Faces;
+use crate::quad_graph::{QuadGraph, TangentPlanes};
 use crate::surface::disc::Disc;
+use crate::surface::edges::next_in;
+use crate::surface::vector::{norm, sub};
 
 /// Mean and extreme of a quantity that is 1 (a ratio) or 0 (a residual) for a perfect map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -52,7 +55,7 @@ pub struct Distortion {
     pub length: Option<MeanMax>,
     /// Faces whose image is not positively oriented, by an exact predicate.
     pub flipped: usize,
-    /// The first such face.
+    /// The first such face, as the source numbers them.
     pub first_flipped: Option<usize>,
     /// Quads whose image is not strictly convex, flipped ones included; 0 for triangles.
     pub not_convex: usize,
@@ -63,16 +66,16 @@ pub struct Distortion {
 }
 
 impl Distortion {
-    /// Measures the map that takes vertex `v` of `graph` to `z[v]`; `graph` is that of `disc`.
-    pub fn new(disc: &Disc, graph: &QuadGraph, z: &[Complex64]) -> Self {
-        let maps = face_maps(disc, graph, z);
+    /// Measures a map of `disc`, of which `graph` was made with the given tangent planes.
+    pub fn new(disc: &Disc, graph: &QuadGraph, planes: Option<&TangentPlanes>, image: &Image) -> Self {
+        let maps = face_maps(disc, graph, image);
         let scale = area_scale(&maps);
         let valid: Vec<&FaceMap> = maps.iter().filter(|m| m.is_regular()).collect();
         let flipped: Vec<usize> = (0..maps.len()).filter(|&f| !maps[f].positive).collect();
-        let quads = (0..graph.quads.len()).map(|q| {
-            let [z0, _, z2, _] = graph.quads[q].map(|v| z[v as usize]);
-            let r = conformal::residual(graph, q, z).norm();
-            if r == 0.0 { 0.0 } else { r / (graph.rho[q].norm() * (z2 - z0).norm()) }
+        let quads = (0..graph.quads.len()).filter(|&q| !in_filled_face(disc, graph, q)).map(|q| {
+            let corners = image.quad(graph, q);
+            let r = conformal::residual_at(graph.rho[q], corners).norm();
+            if r == 0.0 { 0.0 } else { r / (graph.rho[q].norm() * (corners[2] - corners[0]).norm()) }
         });
         let scaled = scale.unwrap_or(1.0);
         Distortion {
@@ -80,11 +83,11 @@ impl Distortion {
             area: mean_max(valid.iter().map(|m| symmetric_ratio(m.sigma1 * m.sigma2 * scaled * scaled))),
             symmetric_dirichlet: symmetric_dirichlet(&valid, scaled),
             rho_residual: mean_max(quads.filter(|r| r.is_finite())),
-            length: length_distortion(disc, z, scaled),
+            length: length_distortion(disc, planes, image, scaled),
             flipped: flipped.len(),
-            first_flipped: flipped.first().copied(),
+            first_flipped: flipped.first().map(|&f| disc.source_face[f] as usize),
             not_convex: maps.iter().filter(|m| !m.convex).count(),
-            boundary_crosses: boundary_crossing(&mesh_boundary(graph, z)).is_some(),
+            boundary_crosses: boundary_crossing(&mesh_boundary(graph, image.z)).is_some(),
             boundary_out_of_order: None,
         }
     }
@@ -98,6 +101,16 @@ impl Distortion {
 /// The image of the mesh's own boundary vertices, in order.
 pub fn mesh_boundary(graph: &QuadGraph, z: &[Complex64]) -> Vec<Complex64> {
     graph.boundary.iter().filter(|&&v| !graph.is_dual(v)).map(|&v| z[v as usize]).collect()
+}
+
+/// Whether quad `q` is, or lies partly in, a face that was put into a hole.
+fn in_filled_face(disc: &Disc, graph: &QuadGraph, q: usize) -> bool {
+    let (first, last) = (disc.source_faces(), disc.faces.len());
+    match graph.primal == graph.vertices {
+        true => q >= first,
+        // The dual vertices of faces follow those of the mesh.
+        false => graph.quads[q].iter().any(|&v| (graph.primal + first..graph.primal + last).contains(&(v as usize))),
+    }
 }
 
 /// The factor on lengths in the plane that gives the image the surface's area; `None` where the image has none.
@@ -144,19 +157,19 @@ fn symmetric_dirichlet(valid: &[&FaceMap], scale: f64) -> Option<f64> {
 }
 
 /// Over the edges of all faces, inner edges counting from both sides.
-fn length_distortion(disc: &Disc, z: &[Complex64], scale: f64) -> Option<MeanMax> {
-    let ratio = |a: u32, b: u32| {
-        let rest = crate::surface::vector::sub(disc.positions[b as usize], disc.positions[a as usize]);
-        symmetric_ratio(scale * (z[b as usize] - z[a as usize]).norm() / crate::surface::vector::norm(rest))
+fn length_distortion(disc: &Disc, planes: Option<&TangentPlanes>, image: &Image, scale: f64) -> Option<MeanMax> {
+    let faces = &disc.faces;
+    let ratio = |f: usize, c: usize| {
+        let next = next_in(faces, f, c);
+        let [a, b] = [c, next].map(|c| disc.positions[faces.corners()[c] as usize]);
+        let rest = planes.map_or_else(|| norm(sub(b, a)), |planes| planes.length(f, sub(b, a)));
+        symmetric_ratio(scale * (image.corner(disc, next) - image.corner(disc, c)).norm() / rest)
     };
-    let edges = disc
-        .faces
-        .iter()
-        .flat_map(|polygon| (0..polygon.len()).map(move |k| (polygon[k], polygon[(k + 1) % polygon.len()])));
-    mean_max(edges.map(|(a, b)| ratio(a, b)).filter(|t| t.is_finite()))
+    let edges = (0..disc.source_faces()).flat_map(|f| faces.corner_range(f).map(move |c| (f, c)));
+    mean_max(edges.map(|(f, c)| ratio(f, c)).filter(|t| t.is_finite()))
 }
 
-/// σ1/σ2 of every face of `faces` for drawing: +∞ where a face is flipped or collapsed.
-pub fn quasi_conformal_errors(faces: &Faces, maps: &[FaceMap]) -> Vec<f64> {
-    (0..faces.len()).map(|f| if maps[f].is_regular() { maps[f].quasi_conformal() } else { f64::INFINITY }).collect()
+/// σ1/σ2 of every face for drawing: +∞ where a face is flipped or collapsed.
+pub fn quasi_conformal_errors(maps: &[FaceMap]) -> Vec<f64> {
+    maps.iter().map(|map| if map.is_regular() { map.quasi_conformal() } else { f64::INFINITY }).collect()
 }

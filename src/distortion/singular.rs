@@ -1,5 +1,6 @@
 use num_complex::Complex64;
 
+use super::Image;
 use super::predicate::{diagonals_cross_left, orientation};
 use crate::energy::conformal;
 use crate::quad_graph::QuadGraph;
@@ -33,22 +34,24 @@ impl FaceMap {
     }
 }
 
-/// The affine maps of all faces of `disc`, triangles by their vertices, quads by their diagonals and ρ.
-pub fn face_maps(disc: &Disc, graph: &QuadGraph, z: &[Complex64]) -> Vec<FaceMap> {
+/// The affine maps of all faces of `disc` but those put into holes, triangles by their vertices, quads by their diagonals and ρ.
+pub fn face_maps(disc: &Disc, graph: &QuadGraph, image: &Image) -> Vec<FaceMap> {
     let quads = |(f, polygon): (usize, &[u32])| match *polygon {
-        [i, j, k] => triangle(disc, [i, j, k], z),
-        _ => quad(graph, f, z),
+        [i, j, k] => {
+            let first = disc.faces.corner_range(f).start;
+            triangle(disc, [i, j, k], [0, 1, 2].map(|k| image.corner(disc, first + k)))
+        }
+        _ => quad(graph, f, image.quad(graph, f)),
     };
-    disc.faces.iter().enumerate().map(quads).collect()
+    disc.faces.iter().enumerate().take(disc.source_faces()).map(quads).collect()
 }
 
 /// With the edge i → j as 0 → ℓ and the third vertex at wℓ, `z_j − z_i = (a + b)ℓ`, `z_k − z_i = (a w + b w̄)ℓ`.
-fn triangle(disc: &Disc, [i, j, k]: [u32; 3], z: &[Complex64]) -> FaceMap {
+fn triangle(disc: &Disc, [i, j, k]: [u32; 3], [zi, zj, zk]: [Complex64; 3]) -> FaceMap {
     let [x, y, t] = [i, j, k].map(|v| disc.positions[v as usize]);
     let (edge, third) = (sub(y, x), sub(t, x));
     let (length_squared, twice_area) = (dot(edge, edge), norm(cross(edge, third)));
     let w = Complex64::new(dot(edge, third), twice_area) / length_squared;
-    let [zi, zj, zk] = [i, j, k].map(|v| z[v as usize]);
     let along = (zj - zi) / length_squared.sqrt();
     let across = (zk - zi) / length_squared.sqrt();
     let b = (along * w - across) / Complex64::new(0.0, 2.0 * w.im);
@@ -57,10 +60,9 @@ fn triangle(disc: &Disc, [i, j, k]: [u32; 3], z: &[Complex64]) -> FaceMap {
 }
 
 /// `b = i r / (2 Re ρ |d02|)`, `a = (z2 − z0)/|d02| − b` with d02 along the real axis.
-fn quad(graph: &QuadGraph, q: usize, z: &[Complex64]) -> FaceMap {
-    let corners = graph.quads[q].map(|v| z[v as usize]);
+fn quad(graph: &QuadGraph, q: usize, corners: [Complex64; 4]) -> FaceMap {
     let length = graph.diagonal[q];
-    let b = Complex64::I * conformal::residual(graph, q, z) / (2.0 * graph.rho[q].re * length);
+    let b = Complex64::I * conformal::residual_at(graph.rho[q], corners) / (2.0 * graph.rho[q].re * length);
     let a = (corners[2] - corners[0]) / length - b;
     let convex = (0..4).all(|k| orientation(corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]) > 0.0);
     face_map(a, b, graph.area(q), diagonals_cross_left(corners), convex)

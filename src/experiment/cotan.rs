@@ -61,7 +61,7 @@ impl Task for CotanTask {
         let riemap = seconds.assemble + seconds.factor + seconds.solve;
         let flipped = ours.distortion.flipped;
         let residual = ours.map.residual;
-        let comparison = compare(&CotanMap { disc: ours.disc, map: ours.map }, &libigl)?;
+        let comparison = compare(&CotanMap { disc: ours.domain.disc, map: ours.map }, &libigl)?;
         let barycentres = map::run(&input, &with_dual("barycentre"), &mut watch)?;
         let libigl = comparison.libigl.seconds_wall;
         Ok(Yield {

@@ -6,6 +6,7 @@ use crate::input::InputError;
 use crate::io::WriteError;
 use crate::libigl::LibiglError;
 use crate::map::MapError;
+use crate::surface::normals::NormalError;
 use crate::verify::VerifyError;
 
 /// Where in a config, or in which `--set`, something stands.
@@ -144,6 +145,15 @@ pub enum RunError {
     /// No map.
     #[error(transparent)]
     Map(#[from] MapError),
+    /// No estimate of the normals.
+    #[error(transparent)]
+    Normals(#[from] NormalError),
+    /// Normals of a surface whose exact ones are not known.
+    #[error("the exact normals of {source_name} are not known; take a generated digital surface")]
+    NoExactNormals {
+        /// The surface.
+        source_name: String,
+    },
     /// No comparison.
     #[error(transparent)]
     Verify(#[from] VerifyError),

@@ -3,15 +3,17 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::{ConfigError, Document, Kind, RunError, Task, Yield};
+use super::picture::{Checkerboard, checkerboard_pair, flat_map};
+use super::{ConfigError, Document, Kind, Picture, RunError, Task, Yield};
 use crate::backend::solver_names;
-use crate::distortion::{face_maps, quasi_conformal_errors};
-use crate::figure::{FigureError, FlatMap, Format};
-use crate::input::{Input, InputError};
-use crate::map::{self, MapOptions, Mapped};
+use crate::figure::Format;
+use crate::input::{Input, InputError, InputOptions};
+use crate::io::Sample;
+use crate::map::{self, MapOptions};
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::report::Report;
 use crate::stopwatch::Stopwatch;
+use crate::surface::digital::Adjacency;
 
 /// One surface, one map; the result is its [`Report`].
 pub(super) struct MapKind;
@@ -25,6 +27,13 @@ pub(super) struct SurfaceSpec {
     /// Parameters of a generated surface beside those in its name, so that they can be swept.
     #[serde(default)]
     parameters: BTreeMap<String, Value>,
+    /// Volume files: as in [`InputOptions`].
+    threshold: Option<f64>,
+    size: Option<[usize; 3]>,
+    #[serde(rename = "type")]
+    sample: Option<Sample>,
+    adjacency: Option<Adjacency>,
+    component: Option<usize>,
 }
 
 /// `[solver]`.
@@ -42,6 +51,8 @@ struct SolverSpec {
 struct FigureSpec {
     /// The map flat, coloured by quasi-conformal error.
     flat: bool,
+    /// The map flat, beside the surface with the map's checkerboard.
+    checkerboard: Option<Checkerboard>,
 }
 
 struct MapTask {
@@ -109,11 +120,21 @@ impl Task for MapTask {
         if let Some(solver) = result.get_mut("solver").and_then(Value::as_object_mut) {
             solver.remove("seconds");
         }
+        // The walks along the mesh are as long as it is wide; their lengths remain.
+        for walk in result.pointer_mut("/periods/loops").and_then(Value::as_array_mut).into_iter().flatten() {
+            if let Some(walk) = walk.as_object_mut() {
+                walk.remove("vertices");
+            }
+        }
         let mut pictures = Vec::new();
         if self.figures.flat {
             for format in [Format::Png, Format::Svg] {
-                pictures.push((format, flat_map(&mapped, &self.title, format)?));
+                pictures.push(Picture { suffix: "", format, bytes: flat_map(&mapped, &self.title, format)? });
             }
+        }
+        if let Some(look) = self.figures.checkerboard {
+            let bytes = checkerboard_pair(&input, &mapped, look, &self.title)?;
+            pictures.push(Picture { suffix: "-checkerboard", format: Format::Png, bytes });
         }
         Ok(Yield { result, timings: serde_json::to_value(seconds)?, pictures, ..Yield::default() })
     }
@@ -128,26 +149,7 @@ impl SurfaceSpec {
             let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
             source.push_str(&format!("{name}={value}"));
         }
-        Input::open(&source)
+        let SurfaceSpec { threshold, size, sample, adjacency, component, .. } = *self;
+        Input::open_with(&source, &InputOptions { threshold, size, sample, adjacency, component })
     }
-}
-
-/// The map flat, faces coloured by quasi-conformal error.
-///
-/// # Errors
-/// A map that cannot be drawn.
-pub fn flat_map(mapped: &Mapped, title: &str, format: Format) -> Result<Vec<u8>, FigureError> {
-    let Mapped { disc, graph, map, .. } = mapped;
-    let maps = face_maps(disc, graph, &map.z);
-    let points: Vec<[f64; 2]> = map.z[..graph.primal].iter().map(|z| [z.re, z.im]).collect();
-    let flipped: Vec<usize> = (0..maps.len()).filter(|&f| !maps[f].positive).collect();
-    let picture = FlatMap {
-        points: &points,
-        faces: &disc.faces,
-        values: &quasi_conformal_errors(&disc.faces, &maps),
-        flipped: &flipped,
-        title,
-        scale_label: "quasi-conformal error σ₁/σ₂",
-    };
-    picture.render(format)
 }

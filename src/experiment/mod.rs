@@ -12,7 +12,8 @@
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
 //! | `run.rs` | runs → records in a folder |
 //! | `summary.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
-//! | `map.rs`, `cotan.rs` | the kinds of experiment, rows of [`KINDS`] |
+//! | `map.rs`, `cotan.rs`, `normals.rs` | the kinds of experiment, rows of [`KINDS`] |
+//! | `picture.rs` | maps → their pictures: flat, or as a checkerboard on the surface |
 //! | `repository.rs` | where experiments and results lie; the revision of the program |
 //!
 //! Everything but `timings` and `versions` of a record is the same on every run of the same program, bit for bit.
@@ -24,6 +25,8 @@ mod document;
 mod error;
 mod expect;
 mod map;
+mod normals;
+mod picture;
 mod record;
 mod repository;
 mod run;
@@ -38,7 +41,7 @@ pub use config::{Column, Config, Run, Shard};
 pub use document::Document;
 pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::Bound;
-pub use map::flat_map;
+pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};
 pub use repository::{find_experiments, revision};
 pub use run::{Progress, run};
@@ -81,9 +84,20 @@ pub struct Yield {
     pub timings: Value,
     /// Versions of other programs that took part.
     pub versions: BTreeMap<String, String>,
-    /// Pictures of the run, by format.
-    pub pictures: Vec<(Format, Vec<u8>)>,
+    /// Pictures of the run.
+    pub pictures: Vec<Picture>,
+}
+
+/// A picture of a run: `results/figures/<config>-<run><suffix>.<format>`.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// What tells it from other pictures of the run, such as `-checkerboard`; may be empty.
+    pub suffix: &'static str,
+    /// Of the file.
+    pub format: Format,
+    /// The file.
+    pub bytes: Vec<u8>,
 }
 
 /// Every kind of experiment; the first is the default.
-pub static KINDS: &[&dyn Kind] = &[&map::MapKind, &cotan::CotanKind];
+pub static KINDS: &[&dyn Kind] = &[&map::MapKind, &cotan::CotanKind, &normals::NormalsKind];

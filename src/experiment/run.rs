@@ -6,7 +6,7 @@ use std::time::Instant;
 use serde_json::Value;
 
 use super::repository::revision;
-use super::{Config, Outcome, Record, ResultsError, Run, RunError, Shard, Yield};
+use super::{Config, Outcome, Picture, Record, ResultsError, Run, RunError, Shard, Yield};
 use crate::figure::Format;
 use crate::io::atomically;
 
@@ -45,8 +45,8 @@ pub fn run(
         let seconds = begun.elapsed().as_secs_f64();
         let (mut record, pictures) = record(config, run, ended);
         record.versions.extend(versions.clone());
-        for (format, bytes) in pictures {
-            write_figure(results, &figure_name(config, run), format, &bytes)?;
+        for Picture { suffix, format, bytes } in pictures {
+            write_figure(results, &format!("{}{suffix}", figure_name(config, run)), format, &bytes)?;
         }
         write_json(&folder.join(format!("{}.json", run.name)), &record)?;
         watch(Progress { position, total: config.runs.len(), record: &record, seconds });
@@ -56,7 +56,7 @@ pub fn run(
 }
 
 /// The record, and the pictures where there is a result.
-fn record(config: &Config, run: &Run, ended: Result<Yield, RunError>) -> (Record, Vec<(Format, Vec<u8>)>) {
+fn record(config: &Config, run: &Run, ended: Result<Yield, RunError>) -> (Record, Vec<Picture>) {
     let mut record = Record {
         experiment: config.name.clone(),
         run: run.name.clone(),

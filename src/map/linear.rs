@@ -33,6 +33,7 @@ impl MapOptions {
             smallest_singular_value: None,
             on_circle: self.fixed_on_circle(),
             anchored: false,
+            exactly: None,
         })
     }
 }

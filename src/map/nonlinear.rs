@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use super::options::hold_pins;
-use super::{Boundary, Map, MapError, MapOptions, Outcome};
+use super::reduced::{self, Attempt};
+use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome};
 use crate::backend::nonlinear::smallest_singular_value;
 use crate::backend::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
 use crate::constraint::{Fixed, Freedoms, float_white_back, hold_gauge, on_circle, spread_points};
@@ -35,19 +36,26 @@ const BARRIER: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];
 pub(super) fn minimise(
     options: &MapOptions,
     expression: &Expression,
-    disc: &Disc,
-    graph: &QuadGraph,
+    domain: &Domain,
     exact: Option<&[[f64; 2]]>,
     watch: &mut dyn Observer,
 ) -> Result<Map, MapError> {
-    let backend = choose(&options.solver)?;
     if !(options.tolerance > 0.0 && options.tolerance < 1.0) {
         return Err(MapError::Tolerance { tolerance: options.tolerance });
     }
-    let metric = options.rest_metric(disc, graph)?;
+    let Domain { disc, graph, .. } = domain;
     let circle = expression.has("C") && options.boundary != Boundary::Fixed;
-    let anchors = if circle { anchors(options, expression, disc, graph, exact)? } else { Anchors::default() };
-    let z = initial(options, expression, disc, graph, &anchors)?;
+    let anchors = if circle { anchors(options, expression, domain, exact)? } else { Anchors::default() };
+    let (after, start) = match reduced::attempt(options, expression, domain, &anchors, watch)? {
+        Attempt::Done(map) => return Ok(*map),
+        Attempt::Elsewhere { after, start } => (after, start),
+    };
+    let backend = choose(&options.solver)?;
+    let metric = domain.rest_metric(options)?;
+    let z = match start {
+        Some(z) => z,
+        None => initial(options, expression, disc, graph, &anchors)?,
+    };
     let fixed = held(options, expression, disc, graph, &anchors, &z)?;
     let problem = Problem { options, expression, graph, metric: &metric, fixed: &fixed };
     let objective = problem.objective()?;
@@ -77,13 +85,14 @@ pub(super) fn minimise(
         total: Some(total),
         energies,
         gradient_norm: Some(minimum.gradient_norm),
-        backend: backend.name(),
+        backend: after.unwrap_or(backend.name()),
         outcome: Outcome::Minimised(minimum.status),
         iterations,
         residual: None,
         smallest_singular_value,
         on_circle: circle || (options.boundary == Boundary::Fixed && options.fixed_on_circle()),
         anchored: anchors.exact,
+        exactly: None,
         fixed,
     })
 }
@@ -94,7 +103,11 @@ fn choose(name: &str) -> Result<&'static dyn Minimiser, MapError> {
     }
     minimiser(name).ok_or_else(|| MapError::NotAMinimiser {
         name: name.to_owned(),
-        known: MINIMISERS.iter().map(|m| m.name()).collect::<Vec<_>>().join(", "),
+        known: [crate::backend::reduced::NAME]
+            .into_iter()
+            .chain(MINIMISERS.iter().map(|m| m.name()))
+            .collect::<Vec<_>>()
+            .join(", "),
     })
 }
 
@@ -119,19 +132,19 @@ fn accept(backend: &dyn Minimiser, minimum: &Minimum, options: &MapOptions) -> R
 
 /// Points of a circle map that are held: positions on the boundary with their angles, ascending.
 #[derive(Default)]
-struct Anchors {
-    points: Vec<(usize, f64)>,
+pub(super) struct Anchors {
+    pub points: Vec<(usize, f64)>,
     /// Whether the angles are those of the exact map.
-    exact: bool,
+    pub exact: bool,
 }
 
 fn anchors(
     options: &MapOptions,
     expression: &Expression,
-    disc: &Disc,
-    graph: &QuadGraph,
+    domain: &Domain,
     exact: Option<&[[f64; 2]]>,
 ) -> Result<Anchors, MapError> {
+    let Domain { disc, graph, .. } = domain;
     if !(2..=3).contains(&options.fix) {
         return Err(MapError::FixedPoints { fix: options.fix });
     }
@@ -144,11 +157,8 @@ fn anchors(
     }
     let positions = spread_points(graph, options.fix);
     let arc = on_circle(graph, 1.0, &[(0, 0.0)])?;
-    let place = |k: usize| match exact {
-        Some(w) => {
-            let [x, y] = w[disc.source_vertex[graph.boundary[k] as usize] as usize];
-            Complex64::new(x, y)
-        }
+    let place = |k: usize| match exact.and_then(|w| w.get(disc.source_vertex[graph.boundary[k] as usize] as usize)) {
+        Some(&[x, y]) => Complex64::new(x, y),
         None => arc.place(graph.boundary[k]).unwrap_or_default(),
     };
     let places = positions.iter().map(|&k| (k, place(k)));

@@ -1,5 +1,5 @@
 use num_complex::Complex64;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::MapError;
 use crate::backend::StopRule;
@@ -7,9 +7,10 @@ use crate::constraint::{Fixed, Shape, on_shape};
 use crate::energy::Expression;
 use crate::energy::conformal::Weight;
 use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS, DualPoint, dual_point};
-use crate::quad_graph::metric::RestMetric;
-use crate::quad_graph::{QuadGraph, QuadGraphError, RhoSource};
+use crate::quad_graph::{QuadGraph, RestSource};
+use crate::surface::cut::Opening;
 use crate::surface::disc::Disc;
+use crate::surface::normals::NormalSpec;
 
 /// A vertex of the source held at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -32,6 +33,21 @@ pub enum Boundary {
     Free,
     /// It is held on a shape: H, unless an energy is given.
     Fixed,
+    /// There is none: closed surfaces of genus 1 are mapped with two periods, by H.
+    Periodic,
+}
+
+/// What the ρ of a quad mesh is computed from, where no estimator of normals is named.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RhoSource {
+    /// The diagonals in R³, equation (1).
+    Positions,
+    /// The diagonals projected on the plane of each face's normal, as the file gives it.
+    Normals,
+    /// Positions for meshes, estimated normals for digital surfaces.
+    #[default]
+    Auto,
 }
 
 /// Which boundary vertices of the quad graph a fixed boundary holds.
@@ -48,6 +64,12 @@ pub enum Hold {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MapOptions {
+    /// Whether a surface that is no disc is cut open along a short graph.
+    pub cut: bool,
+    /// Whether the holes of the surface are filled for the solve: all but the longest, for periodic maps all.
+    pub fill_holes: bool,
+    /// Faces of the source that are left out.
+    pub remove_faces: Vec<u32>,
     /// What the boundary does.
     pub boundary: Boundary,
     /// The energy, in place of the one that `boundary` stands for.
@@ -73,6 +95,10 @@ pub struct MapOptions {
     pub boundary_dual: BoundaryDual,
     /// What ρ of quad meshes comes from.
     pub rho: RhoSource,
+    /// The estimator of normals from which ρ of quad meshes and digital surfaces is taken, in place of `rho`.
+    pub normals: Option<NormalSpec>,
+    /// With normals: what rest lengths and areas are.
+    pub rest: RestSource,
     /// Name of the backend, or `auto`.
     pub solver: String,
     /// Nonlinear maps have converged when |∇E| is at most this times its value at the start.
@@ -84,6 +110,9 @@ pub struct MapOptions {
 impl Default for MapOptions {
     fn default() -> Self {
         MapOptions {
+            cut: false,
+            fill_holes: false,
+            remove_faces: Vec::new(),
             boundary: Boundary::default(),
             energy: None,
             shape: Shape::default(),
@@ -96,6 +125,8 @@ impl Default for MapOptions {
             dual: "barycentre".to_owned(),
             boundary_dual: BoundaryDual::default(),
             rho: RhoSource::default(),
+            normals: None,
+            rest: RestSource::default(),
             solver: "auto".to_owned(),
             tolerance: StopRule::default().tolerance,
             max_iterations: None,
@@ -104,43 +135,24 @@ impl Default for MapOptions {
 }
 
 impl MapOptions {
+    /// How the surface becomes a disc.
+    pub fn opening(&self) -> Opening {
+        Opening { cut: self.cut, remove_faces: self.remove_faces.clone(), fill_holes: self.fill_holes }
+    }
+
     /// The energy that is minimised.
     pub fn expression(&self) -> Expression {
         self.energy.clone().unwrap_or_else(|| match self.boundary {
             Boundary::Circle => Expression::of(&["H", "C"]),
             Boundary::Free => Expression::of(&["H", "Lb"]),
-            Boundary::Fixed => Expression::of(&["H"]),
+            Boundary::Fixed | Boundary::Periodic => Expression::of(&["H"]),
         })
     }
 
-    fn dual_point(&self) -> Result<&'static dyn DualPoint, MapError> {
+    pub(super) fn dual_point(&self) -> Result<&'static dyn DualPoint, MapError> {
         dual_point(&self.dual).ok_or_else(|| MapError::UnknownDual {
             name: self.dual.clone(),
             known: DUAL_POINTS.iter().map(|d| d.name()).collect::<Vec<_>>().join(", "),
-        })
-    }
-
-    /// The quad graph of `disc`.
-    ///
-    /// # Errors
-    /// An unknown dual point; faces that give no ρ.
-    pub fn quad_graph(&self, disc: &Disc) -> Result<QuadGraph, MapError> {
-        let dual = self.dual_point()?;
-        Ok(match (disc.faces.arity(), self.rho) {
-            (Some(3), RhoSource::Normals) => return Err(QuadGraphError::NormalsOfTriangles.into()),
-            (Some(3), RhoSource::Positions) => QuadGraph::from_triangles(disc, dual, self.boundary_dual)?,
-            _ => QuadGraph::from_quads(disc, self.rho)?,
-        })
-    }
-
-    /// The rest lengths and areas of `graph`, which is that of `disc`.
-    ///
-    /// # Errors
-    /// An unknown dual point; degenerate faces.
-    pub fn rest_metric(&self, disc: &Disc, graph: &QuadGraph) -> Result<RestMetric, MapError> {
-        Ok(match disc.faces.arity() {
-            Some(3) => RestMetric::of_triangles(disc, graph, self.dual_point()?)?,
-            _ => RestMetric::of_quads(disc, graph),
         })
     }
 
@@ -171,10 +183,13 @@ impl MapOptions {
 /// Holds vertices of the source at their places.
 pub(super) fn hold_pins(fixed: &mut Fixed, disc: &Disc, pins: &[Pin]) -> Result<(), MapError> {
     for pin in pins {
-        // Vertices of the disc keep the order of the source.
-        let vertex = disc.source_vertex.binary_search(&pin.vertex);
-        let vertex = vertex.map_err(|_| MapError::NotInUse { vertex: pin.vertex })?;
-        fixed.hold(vertex as u32, Complex64::new(pin.place[0], pin.place[1]));
+        let copies = disc.copies(pin.vertex);
+        let vertex = match copies.len() {
+            0 => return Err(MapError::NotInUse { vertex: pin.vertex }),
+            1 => copies.start,
+            copies => return Err(MapError::OnTheCut { vertex: pin.vertex, copies }),
+        };
+        fixed.hold(vertex, Complex64::new(pin.place[0], pin.place[1]));
     }
     Ok(())
 }

@@ -1,58 +1,67 @@
 use super::rho::{extrinsic, with_normal};
-use super::{QuadGraph, QuadGraphError, difference};
+use super::{QuadGraph, QuadGraphError, TangentPlanes, difference};
 use crate::surface::disc::Disc;
+use crate::surface::edges::{Edges, next_in};
 use crate::surface::vector::norm;
 
-/// What the ρ of a quad mesh is computed from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum RhoSource {
-    /// The diagonals in R³, equation (1).
-    #[default]
-    Positions,
-    /// The diagonals projected on the plane of each face's given normal.
-    Normals,
-}
-
 impl QuadGraph {
-    /// The quads of a quad mesh as they are, ρ extrinsic or from the faces' normals.
+    /// The quads of a quad mesh as they are, ρ extrinsic, or measured on given tangent planes.
     ///
     /// # Errors
-    /// A face whose diagonals give no ρ; normals asked for where there are none.
-    pub fn from_quads(disc: &Disc, source: RhoSource) -> Result<Self, QuadGraphError> {
-        let normals = match source {
-            RhoSource::Positions => None,
-            RhoSource::Normals => Some(disc.face_normals.as_deref().ok_or(QuadGraphError::NoNormals)?),
-        };
+    /// A face whose diagonals give no ρ.
+    pub fn from_quads(disc: &Disc, planes: Option<&TangentPlanes>) -> Result<Self, QuadGraphError> {
         let mut graph = QuadGraph {
             vertices: disc.positions.len(),
             primal: disc.positions.len(),
             quads: Vec::with_capacity(disc.faces.len()),
             rho: Vec::with_capacity(disc.faces.len()),
             diagonal: Vec::with_capacity(disc.faces.len()),
+            tilted: planes.map_or(0, |planes| planes.tilted),
             boundary: disc.boundary.clone(),
-            boundary_length: Vec::with_capacity(disc.boundary.len()),
+            boundary_length: Vec::new(),
         };
         for (face, polygon) in disc.faces.iter().enumerate() {
             let &[v0, v1, v2, v3] = polygon else { return Err(QuadGraphError::Corners { corners: polygon.len() }) };
             let d02 = difference(&disc.positions, v0, v2);
             let d13 = difference(&disc.positions, v1, v3);
-            let seen = match normals {
+            let seen = match planes {
                 None => extrinsic(d02, d13).ok_or_else(|| QuadGraphError::DegenerateQuad {
-                    face,
+                    face: disc.source_face[face] as usize,
                     vertices: [v0, v1, v2, v3].map(|v| disc.source_vertex[v as usize]),
                 }),
-                Some(normals) => with_normal(d02, d13, normals[face])
-                    .ok_or(QuadGraphError::NormalOffFace { face, normal: normals[face] }),
+                Some(TangentPlanes { normals, .. }) => {
+                    with_normal(d02, d13, normals[face]).ok_or(QuadGraphError::NormalOffFace {
+                        face: disc.source_face[face] as usize,
+                        normal: normals[face],
+                    })
+                }
             }?;
             graph.quads.push([v0, v1, v2, v3]);
             graph.rho.push(seen.rho);
             graph.diagonal.push(seen.length);
         }
-        for (k, &v) in disc.boundary.iter().enumerate() {
-            let next = disc.boundary[(k + 1) % disc.boundary.len()];
-            graph.boundary_length.push(norm(difference(&disc.positions, v, next)));
-        }
+        graph.boundary_length = boundary_lengths(disc, planes);
         Ok(graph)
     }
+}
+
+/// The rest length of the edge from each boundary vertex to the next.
+fn boundary_lengths(disc: &Disc, planes: Option<&TangentPlanes>) -> Vec<f64> {
+    let n = disc.boundary.len();
+    let ahead = |k: usize| difference(&disc.positions, disc.boundary[k], disc.boundary[(k + 1) % n]);
+    let Some(planes) = planes else { return (0..n).map(|k| norm(ahead(k))).collect() };
+    let mut position = vec![u32::MAX; disc.positions.len()];
+    for (k, &v) in disc.boundary.iter().enumerate() {
+        position[v as usize] = k as u32;
+    }
+    let edges = Edges::new(&disc.faces, disc.positions.len());
+    let mut lengths = vec![0.0; n];
+    for e in 0..edges.len() {
+        let &[c] = edges.corners(e) else { continue };
+        let face = edges.face_of_corner[c as usize] as usize;
+        let corner_vertex = disc.faces.corners();
+        let (v, w) = (corner_vertex[c as usize], corner_vertex[next_in(&disc.faces, face, c as usize)]);
+        lengths[position[v as usize] as usize] = planes.length(face, difference(&disc.positions, v, w));
+    }
+    lengths
 }

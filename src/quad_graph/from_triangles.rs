@@ -46,6 +46,7 @@ impl QuadGraph {
             quads: Vec::with_capacity(edges.len()),
             rho: Vec::with_capacity(edges.len()),
             diagonal: Vec::with_capacity(edges.len()),
+            tilted: 0,
             boundary: Vec::with_capacity(2 * loop_length),
             boundary_length: vec![0.0; 2 * loop_length],
         };
@@ -71,7 +72,8 @@ impl QuadGraph {
                     };
                     if !(foot > 0.0 && foot < 1.0) {
                         let edge = [vi, vj].map(|v| disc.source_vertex[v as usize]);
-                        return Err(QuadGraphError::FootOutsideEdge { face: f as usize, edge });
+                        let face = disc.source_face[f as usize] as usize;
+                        return Err(QuadGraphError::FootOutsideEdge { face, edge });
                     }
                     let k = boundary_position[vi as usize] as usize;
                     graph.boundary_length[2 * k] = foot * length;
@@ -99,6 +101,7 @@ pub(super) fn place_dual_points(disc: &Disc, dual: &dyn DualPoint) -> Result<Vec
             let (s, h) = dual.place(dot(edge, third) / length_squared, norm(cross(edge, third)) / length_squared);
             if !(s.is_finite() && h.is_finite() && length_squared > 0.0) {
                 let vertices = [a, b, c].map(|v| disc.source_vertex[v as usize]);
+                let face = disc.source_face[face] as usize;
                 return Err(QuadGraphError::DegenerateTriangle { face, vertices });
             }
             placed.push((s, h));

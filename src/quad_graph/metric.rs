@@ -1,7 +1,7 @@
 //! Rest lengths and areas, which the metric energies compare a map with.
 
 use super::dual::DualPoint;
-use super::{QuadGraph, QuadGraphError, difference};
+use super::{QuadGraph, QuadGraphError, RestSource, TangentPlanes, difference};
 use crate::surface::disc::Disc;
 use crate::surface::edges::Edges;
 use crate::surface::vector::{cross, norm};
@@ -23,21 +23,38 @@ pub struct RestMetric {
 }
 
 impl RestMetric {
-    /// The metric of a quad mesh: edge lengths in R³.
-    pub fn of_quads(disc: &Disc, graph: &QuadGraph) -> Self {
+    /// The metric of a quad mesh: lengths in R³, or as `planes`, with which the graph was made, say.
+    pub fn of_quads(disc: &Disc, graph: &QuadGraph, planes: Option<&TangentPlanes>) -> Self {
         let edges = Edges::new(&disc.faces, disc.positions.len());
-        let area = |e: usize| {
-            let quads = edges.corners(e).iter().map(|&c| edges.face_of_corner[c as usize] as usize);
-            quads.map(|q| 0.5 * graph.area(q)).sum()
+        let projected = planes.filter(|planes| planes.rest == RestSource::Projected);
+        let folded_area: Vec<f64> = (0..graph.quads.len())
+            .map(|q| {
+                let [v0, v1, v2, v3] = graph.quads[q];
+                let [d1, d2, d3] = [v1, v2, v3].map(|v| {
+                    let d = difference(&disc.positions, v0, v);
+                    projected.map_or(d, |planes| planes.project(q, d))
+                });
+                0.5 * (norm(cross(d3, d2)) + norm(cross(d2, d1)))
+            })
+            .collect();
+        let quads = |e: usize| edges.corners(e).iter().map(|&c| edges.face_of_corner[c as usize] as usize);
+        // The areas that weigh a quad's edges: projected ones come with ρ.
+        let area_of = |q: usize| match planes {
+            Some(TangentPlanes { rest: RestSource::Unit, .. }) => folded_area[q],
+            _ => graph.area(q),
         };
-        let folded = graph.quads.iter().map(|&[v0, v1, v2, v3]| {
-            let [d1, d2, d3] = [v1, v2, v3].map(|v| difference(&disc.positions, v0, v));
-            0.5 * (norm(cross(d3, d2)) + norm(cross(d2, d1)))
-        });
+        let length = |e: usize| {
+            let [a, b] = edges.ends[e];
+            let d = difference(&disc.positions, a, b);
+            match projected {
+                None => norm(d),
+                Some(planes) => quads(e).map(|q| planes.length(q, d)).sum::<f64>() / edges.corners(e).len() as f64,
+            }
+        };
         RestMetric {
-            length: edges.ends.iter().map(|&[a, b]| norm(difference(&disc.positions, a, b))).collect(),
-            area: (0..edges.len()).map(area).collect(),
-            folded_area: folded.collect(),
+            length: (0..edges.len()).map(length).collect(),
+            area: (0..edges.len()).map(|e| quads(e).map(|q| 0.5 * area_of(q)).sum()).collect(),
+            folded_area,
             edges: edges.ends,
         }
     }

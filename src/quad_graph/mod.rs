@@ -7,10 +7,12 @@ mod from_triangles;
 pub mod metric;
 mod periods;
 pub mod rho;
+mod tangent;
 
 pub use curvature::curvature;
-pub use from_quads::RhoSource;
 pub use periods::{Periods, PeriodsError};
+pub(crate) use tangent::own_normal;
+pub use tangent::{RestSource, TangentPlanes};
 
 use num_complex::Complex64;
 
@@ -31,6 +33,8 @@ pub struct QuadGraph {
     pub rho: Vec<Complex64>,
     /// |d02| of each quad at rest (`nf`), the unit of the positions. Its area is ½ Re ρ |d02|².
     pub diagonal: Vec<f64>,
+    /// Quads whose given normal was tilted to keep ρ away from 0 and ∞; see [`TangentPlanes::guarded`].
+    pub tilted: usize,
     /// The boundary loop, surface on its left (`nb`).
     pub boundary: Vec<u32>,
     /// Rest length of the edge from each boundary vertex to the next (`nb`).
@@ -68,12 +72,6 @@ pub enum QuadGraphError {
         /// Its normal.
         normal: [f64; 3],
     },
-    /// ρ from normals was asked for, but there are none.
-    #[error("the input gives no normals for all faces: take ρ from the positions (--rho positions)")]
-    NoNormals,
-    /// ρ from normals was asked for on triangles.
-    #[error("a triangle mesh has its own tangent planes: --rho normals is for quad meshes")]
-    NormalsOfTriangles,
     /// A triangle without area.
     #[error(
         "face {face} is degenerate: its vertices {vertices:?} are on one line or beyond the range of doubles: move or \

@@ -10,24 +10,36 @@ use riemap::constraint::Shape;
 use riemap::energy::Expression;
 use riemap::energy::conformal::Weight;
 use riemap::io::read_positions;
-use riemap::map::{Boundary, Hold, MapOptions, Pin};
-use riemap::quad_graph::RhoSource;
+use riemap::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource};
+use riemap::periodic::Tiling;
+use riemap::quad_graph::RestSource;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
 
+use riemap::surface::normals::NormalSpec;
+
 use crate::cli::by_name;
+use crate::cli::source::Source;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// A mesh file (.obj .off .ply .stl), or a generated surface such as `graph:cos+cos?n=33`
-    #[arg(value_name = "MESH")]
-    pub(super) mesh: String,
+    #[command(flatten)]
+    pub(super) source: Source,
     /// Write the mesh with the map as texture coordinates (.obj, .ply)
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// What the boundary does. circle: H + C; free: H + L', its lengths kept; fixed: H, boundary held on --shape
-    /// [default: circle]
+    /// What the boundary does. circle: H + C; free: H + L', its lengths kept; fixed: H, boundary held on --shape;
+    /// periodic: H, closed surfaces of genus 1, two periods [default: circle]
     #[arg(long, value_parser = by_name::<Boundary>)]
     pub(super) boundary: Option<Boundary>,
+    /// Cut a surface that is no disc open along short lines; the output then has texture coordinates per corner
+    #[arg(long)]
+    pub(super) cut: bool,
+    /// Fill holes for the map: all but the longest, with --boundary periodic all; what is put in is not written
+    #[arg(long)]
+    pub(super) fill_holes: bool,
+    /// Leave a face out (from 0); repeatable
+    #[arg(long, value_name = "F")]
+    pub(super) remove_face: Vec<u32>,
     /// Energy, in place of the one of --boundary: terms H C A L Lb (L' is Lb) with coefficients, as in "H + 0.5 L + A"
     #[arg(long, value_name = "E", value_parser = Expression::from_str)]
     pub(super) energy: Option<Expression>,
@@ -59,8 +71,16 @@ pub struct Arguments {
     /// Dual vertex of boundary edges: midpoint, foot (of the perpendicular from the dual point)
     #[arg(long, default_value = "midpoint", value_parser = by_name::<BoundaryDual>)]
     pub(super) boundary_dual: BoundaryDual,
-    /// What ρ of quad meshes comes from: positions, normals (those of the file)
-    #[arg(long, default_value = "positions", value_parser = by_name::<RhoSource>)]
+    /// Quad meshes and digital surfaces: take ρ from normals estimated by NAME, with parameters as in "hat?radius=4"; see
+    /// `riemap list` [default: digital surfaces auto; meshes none]
+    #[arg(long, value_name = "NAME", value_parser = NormalSpec::from_str, conflicts_with = "rho")]
+    pub(super) normals: Option<NormalSpec>,
+    /// With normals: rest lengths and areas projected on the tangent planes, or those of the surfels (unit)
+    #[arg(long, default_value = "projected", value_parser = by_name::<RestSource>)]
+    pub(super) rest: RestSource,
+    /// What ρ of quad meshes comes from: positions, normals (those of the file, as they are), auto (positions; of digital
+    /// surfaces normals that are estimated)
+    #[arg(long, default_value = "auto", value_parser = by_name::<RhoSource>)]
     pub(super) rho: RhoSource,
     /// Backend; see `riemap list`
     #[arg(long, default_value = "auto", value_parser = PossibleValuesParser::new(solver_names()))]
@@ -74,6 +94,10 @@ pub struct Arguments {
     /// Write energy, its terms, gradient, step and seconds of every iteration as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub(super) trace: Option<PathBuf>,
+    /// Periodic maps: what --output has. conformal: the map, periods 1 and τ; whole: sheared a little (5 % at most) so that
+    /// both periods are whole numbers and a repeating texture has no seam
+    #[arg(long, default_value = "conformal", value_parser = by_name::<Tiling>)]
+    pub(super) tiling: Tiling,
     /// Write system (2) as a complex matrix in Matrix Market format
     #[arg(long, value_name = "FILE.mtx")]
     pub(super) system: Option<PathBuf>,
@@ -83,6 +107,9 @@ pub struct Arguments {
     /// Draw the map, coloured by quasi-conformal error (.png, .svg)
     #[arg(long, value_name = "FILE")]
     pub(super) picture: Option<PathBuf>,
+    /// Draw the surface, shaded, with the checkerboard that the map lays on it
+    #[arg(long, value_name = "FILE.png")]
+    pub(super) texture: Option<PathBuf>,
     /// Print warnings and errors alone
     #[arg(short, long)]
     pub(super) quiet: bool,
@@ -91,7 +118,7 @@ pub struct Arguments {
 impl Arguments {
     /// The files to be written.
     pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
-        [&self.output, &self.system, &self.report, &self.picture, &self.trace]
+        [&self.output, &self.system, &self.report, &self.picture, &self.texture, &self.trace]
             .into_iter()
             .flatten()
             .map(PathBuf::as_path)
@@ -111,7 +138,7 @@ fn refuse_contradictions(arguments: &Arguments, options: &MapOptions) -> Result<
         }
     }
     if arguments.trace.is_some() && is_linear(options) {
-        bail!("--trace is for nonlinear maps; H with a fixed boundary is solved directly");
+        bail!("--trace is for nonlinear maps, and this one is solved directly: leave it out");
     }
     let mut pinned: Vec<u32> = arguments.pin.iter().map(|pin| pin.vertex).collect();
     pinned.sort_unstable();
@@ -123,11 +150,13 @@ fn refuse_contradictions(arguments: &Arguments, options: &MapOptions) -> Result<
 
 /// Whether one linear solve makes the map.
 fn is_linear(options: &MapOptions) -> bool {
-    options.boundary == Boundary::Fixed && options.expression().terms.iter().all(|term| term.name == "H")
+    options.boundary == Boundary::Periodic
+        || options.boundary == Boundary::Fixed && options.expression().terms.iter().all(|term| term.name == "H")
 }
 
 /// Options that were given and change nothing, each with the reason.
-pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, triangles: bool) -> Vec<&'static str> {
+pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped: &Mapped) -> Vec<&'static str> {
+    let (triangles, opening) = (mapped.domain.is_of_triangles(), &mapped.cut);
     let circle = options.expression().has("C") && options.boundary != Boundary::Fixed;
     let linear = is_linear(options);
     let idle = [
@@ -144,6 +173,19 @@ pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, triang
         (
             options.boundary_dual != BoundaryDual::default() && !triangles,
             "--boundary-dual has no effect on a quad mesh",
+        ),
+        (
+            options.cut && opening.cut_edges == 0 && opening.vertices_split == 0,
+            "--cut has no effect: the surface is a disc",
+        ),
+        (options.fill_holes && opening.holes_filled == 0, "--fill-holes has no effect: there is no hole to be filled"),
+        (
+            options.rest != RestSource::default() && mapped.domain.planes.is_none(),
+            "--rest has no effect: ρ is not taken from normals",
+        ),
+        (
+            arguments.tiling != Tiling::default() && mapped.torus.is_none(),
+            "--tiling has no effect: the map has no periods",
         ),
     ];
     idle.into_iter().filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()
@@ -177,6 +219,9 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
     };
     let defaults = MapOptions::default();
     let options = MapOptions {
+        cut: arguments.cut,
+        fill_holes: arguments.fill_holes,
+        remove_faces: arguments.remove_face.clone(),
         boundary: arguments.boundary.unwrap_or_default(),
         energy: arguments.energy.clone(),
         fix: arguments.fix.map_or(defaults.fix, usize::from),
@@ -191,6 +236,8 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
         dual: arguments.dual.clone(),
         boundary_dual: arguments.boundary_dual,
         rho: arguments.rho,
+        normals: arguments.normals.clone(),
+        rest: arguments.rest,
         solver: arguments.solver.clone(),
     };
     refuse_contradictions(arguments, &options)?;

@@ -9,9 +9,8 @@ use std::io::Write;
 use anyhow::{Context, Result, bail};
 
 use riemap::backend::Status;
-use riemap::figure::Format;
-use riemap::input::Input;
 use riemap::map::{self, Outcome};
+use riemap::periodic::Tiling;
 use riemap::report::Report;
 use riemap::stopwatch::Stopwatch;
 
@@ -24,12 +23,11 @@ use summary::{print, warn};
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     // What cannot be written is refused before anything is computed.
     refuse_outputs(arguments)?;
-    let picture_format = arguments.picture.as_deref().map(Format::from_path).transpose()?;
     let options = options(arguments)?;
 
     let watch = if arguments.trace.is_some() { Stopwatch::tracing() } else { Stopwatch::start() };
     let mut progress = Progress::new(watch, arguments.quiet);
-    let input = Input::open(&arguments.mesh)?;
+    let input = arguments.source.open()?;
     let mapped = map::run(&input, &options, &mut progress);
     progress.clear();
     let mapped = mapped.with_context(|| input.source.clone())?;
@@ -38,14 +36,19 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     for finding in &mapped.findings {
         eprintln!("riemap: note: {finding}: {}", finding.advice());
     }
-    for reason in without_effect(arguments, &options, mapped.disc.faces.arity() == Some(3)) {
+    for reason in without_effect(arguments, &options, &mapped) {
         eprintln!("riemap: note: {reason}");
     }
     warn(&options, &mapped);
-    let picture = picture_format.map(|format| draw(&mapped, &record, format)).transpose()?;
-    write_all(arguments, &input, &mapped, &record, picture, progress.watch.trace())?;
+    let pictures = draw(arguments, &input, &mapped, &record)?;
+    write_all(arguments, &input, &mapped, &record, &pictures, progress.watch.trace())?;
     if !arguments.quiet {
         print(out, &record)?;
+        if let (Some(periods), Tiling::Whole) = (&record.periods, arguments.tiling) {
+            let [[a, b], [c, d]] = periods.whole.matrix;
+            let shear = 100.0 * periods.whole.shear;
+            writeln!(out, "texture coordinates with the periods ({a}, {c}) and ({b}, {d}), sheared by {shear:.2} %")?;
+        }
         for path in arguments.outputs() {
             writeln!(out, "wrote {}", path.display())?;
         }

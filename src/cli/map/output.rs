@@ -4,11 +4,11 @@ use std::path::Path;
 use anyhow::{Result, bail};
 
 use riemap::backend::Iteration;
-use riemap::experiment::flat_map;
+use riemap::experiment::{Checkerboard, checkerboard, flat_map};
 use riemap::figure::Format;
 use riemap::input::Input;
-use riemap::io::{Staged, Uv, can_be_written, stage, stage_mesh, writable, write_matrix_market};
-use riemap::map::{Map, Mapped};
+use riemap::io::{Staged, can_be_written, stage, stage_mesh, writable, write_matrix_market};
+use riemap::map::{Domain, Map, Mapped};
 use riemap::problem::system;
 use riemap::report::Report;
 use riemap::stopwatch::Traced;
@@ -16,16 +16,37 @@ use riemap::surface::disc::Disc;
 
 use super::arguments::Arguments;
 
-pub(super) fn draw(mapped: &Mapped, record: &Report, format: Format) -> Result<Vec<u8>> {
+/// The pictures asked for, each with the file it is for.
+pub(super) fn draw<'a>(
+    arguments: &'a Arguments,
+    input: &Input,
+    mapped: &Mapped,
+    record: &Report,
+) -> Result<Vec<(&'a Path, Vec<u8>)>> {
     let name = Path::new(&record.input.path).file_name().map(|name| name.to_string_lossy());
     let title = format!("{}: {} faces", name.unwrap_or_default(), record.input.faces);
-    Ok(flat_map(mapped, &title, format)?)
+    let mut pictures = Vec::new();
+    if let Some(path) = arguments.picture.as_deref() {
+        pictures.push((path, flat_map(mapped, &title, Format::from_path(path)?)?));
+    }
+    if let Some(path) = arguments.texture.as_deref() {
+        pictures.push((path, checkerboard(input, mapped, Checkerboard::default(), &title)?));
+    }
+    Ok(pictures)
 }
 
 /// Fails where an output cannot be written, or two are to be written to one place.
 pub(super) fn refuse_outputs(arguments: &Arguments) -> Result<()> {
     if let Some(path) = &arguments.output {
         writable(path)?;
+    }
+    if let Some(path) = &arguments.picture {
+        Format::from_path(path)?;
+    }
+    if let Some(path) = &arguments.texture
+        && !matches!(Format::from_path(path), Ok(Format::Png))
+    {
+        bail!("{} is no .png, and a shaded surface is drawn in pixels alone: name it .png", path.display());
     }
     let outputs: Vec<&Path> = arguments.outputs().collect();
     for (k, &path) in outputs.iter().enumerate() {
@@ -43,17 +64,14 @@ pub(super) fn write_all(
     input: &Input,
     mapped: &Mapped,
     record: &Report,
-    picture: Option<Vec<u8>>,
+    pictures: &[(&Path, Vec<u8>)],
     trace: &[Traced],
 ) -> Result<()> {
-    let Mapped { disc, graph, map, .. } = mapped;
+    let Mapped { domain: Domain { disc, graph, .. }, map, .. } = mapped;
     let mut staged: Vec<Staged> = Vec::new();
     if let Some(path) = &arguments.output {
-        let mut uv = vec![[0.0; 2]; input.surface.positions.len()];
-        for (&v, z) in disc.source_vertex.iter().zip(&map.z) {
-            uv[v as usize] = [z.re, z.im];
-        }
-        staged.push(stage_mesh(path, &input.surface, input.vertex_text.as_ref(), Some(Uv::PerVertex(&uv)))?);
+        let texture = mapped.texture_coordinates(&input.surface, arguments.tiling);
+        staged.push(stage_mesh(path, &input.surface, input.vertex_text.as_ref(), Some(texture.uv()))?);
     }
     if let Some(path) = &arguments.system {
         let comments = system_comments(record, disc, map);
@@ -63,8 +81,8 @@ pub(super) fn write_all(
         let json = serde_json::to_string_pretty(record)?;
         staged.push(stage(path, |out| writeln!(out, "{json}"))?);
     }
-    if let (Some(path), Some(bytes)) = (&arguments.picture, picture) {
-        staged.push(stage(path, |out| out.write_all(&bytes))?);
+    for (path, bytes) in pictures {
+        staged.push(stage(path, |out| out.write_all(bytes))?);
     }
     if let Some(path) = &arguments.trace {
         staged.push(stage(path, |out| write_trace(out, trace))?);

@@ -30,10 +30,11 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         }
         _ => {}
     }
-    let triangles = mapped.disc.faces.arity() == Some(3);
     let mut help: Vec<&str> = Vec::new();
-    help.extend(triangles.then_some("another --dual"));
+    help.extend(mapped.domain.is_of_triangles().then_some("another --dual"));
+    help.extend(mapped.domain.planes.is_some().then_some("other --normals"));
     match map.outcome {
+        Outcome::Solved if mapped.torus.is_some() => {}
         Outcome::Solved => help.push("another --shape"),
         Outcome::Minimised(_) if map.on_circle => {
             help.extend((!options.keep_order).then_some("--keep-order"));
@@ -41,7 +42,10 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         }
         Outcome::Minimised(_) => help.push("--boundary circle"),
     }
-    let help = format!("{} may help", help.join(", or "));
+    let help = match help.is_empty() {
+        true => "a finer mesh may help".to_owned(),
+        false => format!("{} may help", help.join(", or ")),
+    };
     if let Some(first) = distortion.first_flipped {
         let faces = plural(distortion.flipped, "face is", "faces are");
         eprintln!("riemap: warning: the map is not one-to-one: {faces} flipped, the first is face {first}; {help}");
@@ -63,14 +67,22 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
 pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     let Report { input, quad_graph, solver, distortion, .. } = record;
     let (vertices, faces) = (plural(input.vertices, "vertex", "vertices"), plural(input.faces, "face", "faces"));
-    writeln!(out, "{}: {} mesh, {vertices}, {faces}", input.path, input.kind)?;
+    let what = if input.kind == "digital" { "surface" } else { "mesh" };
+    writeln!(out, "{}: {} {what}, {vertices}, {faces}", input.path, input.kind)?;
     let negative = match quad_graph.negative_rho {
         0 => String::new(),
         n => format!(", {n} not positive"),
     };
+    if let Some(cut) = &record.cut {
+        writeln!(out, "{cut}")?;
+    }
+    let tilted = match quad_graph.clamped {
+        0 => String::new(),
+        n => format!("; {} tilted for it", plural(n, "normal", "normals")),
+    };
     writeln!(
         out,
-        "quad graph: {} vertices, {}, {} vertices on the boundary, Re ρ from {:.3e}{negative}",
+        "quad graph: {} vertices, {}, {} vertices on the boundary, Re ρ from {:.3e}{negative}{tilted}",
         quad_graph.vertices,
         plural(quad_graph.quads, "quad", "quads"),
         quad_graph.boundary_vertices,
@@ -78,6 +90,11 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     )?;
     let seconds = &solver.seconds;
     let how = match (solver.residual, solver.gradient_norm) {
+        (Some(residual), _) if solver.exactly.is_some() => format!(
+            "{} after {}, lengths to {residual:.1e}",
+            solver.status,
+            plural(solver.iterations, "iteration", "iterations")
+        ),
         (Some(residual), _) => format!("to a relative residual of {residual:.1e}"),
         (None, gradient) => format!(
             "{} after {}, |gradient| {:.1e}",
@@ -101,6 +118,14 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     }
     if let Some(sigma) = solver.smallest_singular_value {
         writeln!(out, "smallest singular value of the Jacobian: {sigma:.3e}")?;
+    }
+    if let Some(periods) = &record.periods {
+        let number = |[re, im]: [f64; 2]| format!("{re:.7} + {im:.7} i");
+        let [first, second] = periods.loops.each_ref().map(|walk| plural(walk.vertices.len(), "edge", "edges"));
+        writeln!(out, "periods 1 and τ = {}, along loops of {first} and {second}", number(periods.tau))?;
+        if let (Some(exact), Some(error)) = (periods.exact, periods.error) {
+            writeln!(out, "exact τ = {}: {:.4} % off", number(exact), 100.0 * error)?;
+        }
     }
     if let Some(error) = &record.error {
         writeln!(out, "distance to the exact map: max {:.3e}, rms {:.3e}", error.max, error.rms)?;

@@ -1,0 +1,177 @@
+use crate::backend::reduced::Unreduced;
+use crate::backend::{MinimiseError, SolveError};
+use crate::constraint::ConstraintError;
+use crate::energy::conformal::NonPositiveRho;
+use crate::periodic::PeriodicError;
+use crate::quad_graph::QuadGraphError;
+use crate::surface::cut::CutError;
+use crate::surface::normals::NormalError;
+
+/// The request cannot be met.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MapError {
+    /// A surface that is no disc and does not become one, or is too badly formed.
+    #[error("the surface cannot be mapped (`riemap info` tells more)")]
+    NoDisc(#[from] CutError),
+    /// ρ from normals was asked for, and some face has none.
+    #[error("face {face} has no usable normal, and ρ from normals needs one for every face: use --rho positions")]
+    NoNormal {
+        /// The first such face.
+        face: usize,
+    },
+    /// ρ from normals was asked for on triangles.
+    #[error("a triangle mesh has its own tangent planes: --normals and --rho are for quad meshes and digital surfaces")]
+    NormalsOfTriangles,
+    /// No estimate of the normals.
+    #[error(transparent)]
+    Normals(#[from] NormalError),
+    /// A name of no dual point.
+    #[error("unknown dual point `{name}`; known: {known}")]
+    UnknownDual {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A name of no iterative backend.
+    #[error("`{name}` does not solve nonlinear problems; those that do: auto, {known}")]
+    NotAMinimiser {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// H alone with a boundary that is not held.
+    #[error("H alone leaves the boundary free to take any shape: hold it (--boundary fixed), or add C, L or Lb")]
+    FreeBoundary,
+    /// No periodic map.
+    #[error(transparent)]
+    Periodic(#[from] PeriodicError),
+    /// An energy other than H for periodic maps.
+    #[error(
+        "periodic maps minimise H, and `{energy}` was asked for: leave --energy out, or cut the surface open (--cut)"
+    )]
+    PeriodicEnergy {
+        /// The energy.
+        energy: String,
+    },
+    /// A vertex held where nothing is.
+    #[error("periodic maps hold no vertices: leave the pins out")]
+    PeriodicPins,
+    /// A solver that periodic maps do not take.
+    #[error("periodic maps have a solver of their own, and `{name}` was asked for: leave --solver out")]
+    PeriodicSolver {
+        /// The name asked for.
+        name: String,
+    },
+    /// Faces removed from, or a cut through, a surface that is to be closed.
+    #[error("periodic maps are of closed surfaces: leave --cut and --remove-face out, or choose another --boundary")]
+    PeriodicOpening,
+    /// An energy that leaves vertices free to be anywhere.
+    #[error("`{energy}` leaves the inside of the map undetermined: add H, or L")]
+    Undetermined {
+        /// The energy.
+        energy: String,
+    },
+    /// A number of fixed points that means nothing.
+    #[error("{fix} fixed boundary points: a circle map has 3 (or 2, as in the paper)")]
+    FixedPoints {
+        /// The number asked for.
+        fix: usize,
+    },
+    /// A tolerance that means nothing.
+    #[error("the tolerance is {tolerance}; it must be positive and below 1")]
+    Tolerance {
+        /// The number asked for.
+        tolerance: f64,
+    },
+    /// Pins that would fold the boundary.
+    #[error(
+        "the pins do not follow each other counter-clockwise along the boundary: vertex {vertex} is out of order; turn \
+         the pins or the faces over"
+    )]
+    PinsOutOfOrder {
+        /// The first such vertex of the source.
+        vertex: u32,
+    },
+    /// A boundary vertex of a circle map pinned elsewhere.
+    #[error(
+        "boundary vertex {vertex} is pinned at distance {radius} from 0: a circle map has its boundary at distance 1"
+    )]
+    PinOffCircle {
+        /// The vertex of the source.
+        vertex: u32,
+        /// Its distance from 0.
+        radius: f64,
+    },
+    /// An inner vertex of a circle map pinned on the circle or outside.
+    #[error(
+        "vertex {vertex} is not on the boundary and is pinned at distance {radius} from 0: inside a circle map it must be \
+         less than 1 (`riemap info --boundary` lists the boundary)"
+    )]
+    PinOutside {
+        /// The vertex of the source.
+        vertex: u32,
+        /// Its distance from 0.
+        radius: f64,
+    },
+    /// The order of a boundary that is on no circle.
+    #[error("--keep-order is for circle maps: the energy {energy} has no C")]
+    NoCircle {
+        /// The energy.
+        energy: String,
+    },
+    /// A held vertex that is not in use.
+    #[error("vertex {vertex} cannot be held: no face of the surface uses it (vertices count from 0)")]
+    NotInUse {
+        /// Its index in the source.
+        vertex: u32,
+    },
+    /// A held vertex that the cut passes through.
+    #[error(
+        "vertex {vertex} cannot be held: the surface is cut there, and it has {copies} images: hold another vertex, or \
+         open the surface elsewhere (--remove-face)"
+    )]
+    OnTheCut {
+        /// Its index in the source.
+        vertex: u32,
+        /// What it became.
+        copies: usize,
+    },
+    /// No usable ρ.
+    #[error(transparent)]
+    QuadGraph(#[from] QuadGraphError),
+    /// Integral weights that are undefined.
+    #[error(transparent)]
+    NonPositiveRho(#[from] NonPositiveRho),
+    /// Constraints that contradict or do not suffice.
+    #[error(transparent)]
+    Constraint(#[from] ConstraintError),
+    /// No solution of the linear problem.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// No solution of the nonlinear problem.
+    #[error(transparent)]
+    Minimise(#[from] MinimiseError),
+    /// No solution of the problem on the boundary.
+    #[error(transparent)]
+    Reduced(#[from] Unreduced),
+    /// A minimisation that ran out of iterations, or met rounding too early.
+    #[error(
+        "{backend} did not converge: {status} after {iterations} iterations, with the gradient at {reduction:.1e} of \
+         that of the start ({tolerance:.1e} was asked for); try another --solver, or --max-iterations to get the \
+         unfinished map"
+    )]
+    NotConverged {
+        /// Its name.
+        backend: &'static str,
+        /// How it ended.
+        status: &'static str,
+        /// Iterations made.
+        iterations: usize,
+        /// |∇E| relative to the start.
+        reduction: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+}

@@ -1,0 +1,51 @@
+use super::{Domain, Map, MapError, MapOptions, Outcome};
+use crate::backend::Observer;
+use crate::constraint::Fixed;
+use crate::periodic::{PeriodicMap, periodic};
+
+impl MapOptions {
+    /// Fails where something is asked for that periodic maps do not have.
+    pub(super) fn check_periodic(&self) -> Result<(), MapError> {
+        let expression = self.expression();
+        if expression.terms.iter().any(|term| term.name != "H") {
+            return Err(MapError::PeriodicEnergy { energy: expression.to_string() });
+        }
+        if self.keep_order {
+            return Err(MapError::NoCircle { energy: expression.to_string() });
+        }
+        if !self.pins.is_empty() {
+            return Err(MapError::PeriodicPins);
+        }
+        if self.solver != "auto" {
+            return Err(MapError::PeriodicSolver { name: self.solver.clone() });
+        }
+        if self.cut || !self.remove_faces.is_empty() {
+            return Err(MapError::PeriodicOpening);
+        }
+        Ok(())
+    }
+
+    /// The periodic map of a closed domain of genus 1.
+    ///
+    /// # Errors
+    /// Another genus; integral weights that are undefined; a factorisation that breaks down.
+    pub(super) fn periodic(&self, domain: &Domain, watch: &mut dyn Observer) -> Result<(Map, PeriodicMap), MapError> {
+        let torus = periodic(&domain.disc, &domain.graph, self.weight, watch)?;
+        let map = Map {
+            z: torus.z.clone(),
+            fixed: Fixed::default(),
+            total: Some(torus.h),
+            energies: vec![("H", torus.h)],
+            gradient_norm: None,
+            backend: torus.backend,
+            outcome: Outcome::Solved,
+            iterations: 0,
+            residual: Some(torus.residual),
+            smallest_singular_value: None,
+            on_circle: false,
+            anchored: false,
+            exactly: None,
+        };
+        Ok((map, torus))
+    }
+}
