@@ -286,6 +286,19 @@ fn the_fixed_circle_comes_out_as_in_results_and_the_same_twice() {
 }
 
 #[test]
+fn a_checkerboard_is_drawn_beside_the_flat_map_under_a_name_of_its_own() {
+    let figures = "[figures]\nflat = true\ncheckerboard = { squares = 8, up = \"-y\", towards = [0, 1, 3] }\n";
+    let config = load(&format!("{PLANE}{figures}"), &[]).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(run(&config, Shard::ALL, folder.path())[0].error, None);
+    for picture in ["study.png", "study.svg", "study-checkerboard.png"] {
+        assert!(folder.path().join("figures").join(picture).is_file(), "{picture}");
+    }
+    assert_refused(&format!("{PLANE}[figures]\ncheckerboard = {{ squares = -1 }}\n"), &[], &["study.toml:4", "-1"]);
+    assert_refused(&format!("{PLANE}[figures]\ncheckerboard = {{ side = 8 }}\n"), &[], &["study.toml:4", "squares"]);
+}
+
+#[test]
 fn a_run_against_libigl_comes_out_as_in_results() {
     let config = Config::load(&clone().join("experiments/obtuse.toml"), &[]).unwrap();
     let folder = tempfile::tempdir().unwrap();

@@ -8,8 +8,8 @@ use riemap::backend::{LinearBackend, Observer, Phase, Silent, SolveError, Unsuit
 use riemap::constraint::{Shape, on_shape};
 use riemap::energy::conformal::{self, Weight};
 use riemap::problem::LinearProblem;
+use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint};
-use riemap::quad_graph::{QuadGraph, RhoSource};
 use riemap::surface::generate::{Form, Immersion, Parameter, Row, generate_from};
 
 /// The symmedian point: barycentric weights a², b², c². Inside every triangle.
@@ -112,7 +112,7 @@ fn a_new_backend_sees_all_it_needs_and_agrees_with_the_others() {
     let quads = disc_of("sphere?n=8&jitter=0.2");
     let triangles = disc_of("enneper?n=5&mesh=triangle");
     let graphs = [
-        QuadGraph::from_quads(&quads, RhoSource::Positions).expect("a disc"),
+        QuadGraph::from_quads(&quads, None).expect("a disc"),
         QuadGraph::from_triangles(&triangles, &Symmedian, BoundaryDual::Midpoint).expect("a disc"),
     ];
     for graph in &graphs {
@@ -134,7 +134,7 @@ fn a_new_surface_is_mapped_like_the_others() {
     let errors = [8, 16].map(|n| {
         let cone = generate_from(&[CONE], &format!("cone?n={n}&angle=0.7")).expect("a row");
         let exact: Vec<Complex64> = cone.exact.expect("conformal").iter().map(|w| Complex64::new(w[0], w[1])).collect();
-        let graph = QuadGraph::from_quads(&disc(&cone.surface), RhoSource::Positions).expect("a disc");
+        let graph = QuadGraph::from_quads(&disc(&cone.surface), None).expect("a disc");
         let problem = LinearProblem::new(&graph, Weight::Integral, &hold_boundary(&graph, &exact)).expect("whole");
         largest_difference(&exact, &solve_linear(&problem, "auto", &mut Silent).expect("solvable").z)
     });

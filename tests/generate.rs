@@ -14,6 +14,9 @@ fn everything() -> Vec<Generated> {
     let mut names = Vec::new();
     for row in SURFACES {
         names.push(row.name.to_string());
+        if row.all_parameters().all(|p| p.name != "n") {
+            continue;
+        }
         for n in [3, 4, 9, 20] {
             for tail in [
                 "mesh=quad&jitter=0.45&seed=1",
@@ -102,7 +105,7 @@ fn grids_have_the_vertices_and_faces_that_their_names_say() {
 }
 
 #[test]
-fn every_surface_is_an_oriented_manifold_disc_or_torus() {
+fn every_surface_is_an_oriented_manifold_disc_sphere_or_torus() {
     for g in everything() {
         let (nv, nf) = (g.surface.positions.len(), g.surface.faces.len());
         let edges = edges(&g);
@@ -112,9 +115,14 @@ fn every_surface_is_an_oriented_manifold_disc_or_torus() {
         assert!(edges.values().all(|&(a, b)| a <= 1 && b <= 1), "{}: edge used twice one way", g.name);
         let boundary: Vec<_> = edges.iter().filter(|(_, uses)| uses.0 + uses.1 == 1).map(|(&e, _)| e).collect();
         let euler = nv as i64 - edges.len() as i64 + nf as i64;
-        let closed = g.period.is_some();
-        assert_eq!(euler, i64::from(!closed), "{}: Euler number", g.name);
-        assert_eq!(boundary.is_empty(), closed, "{}: boundary", g.name);
+        let expected = match g.name.split('?').next() {
+            Some("torus" | "digital-torus") => 0,
+            Some("digital-ball" | "digital-ellipsoid" | "digital-box") => 2,
+            _ => 1,
+        };
+        assert_eq!(euler, expected, "{}: Euler number", g.name);
+        assert_eq!(g.period.is_some(), euler == 0, "{}: period", g.name);
+        assert_eq!(boundary.is_empty(), euler != 1, "{}: boundary", g.name);
         // one loop: every boundary vertex has two boundary edges, and with Euler number 1 the surface is a disc
         let mut degree = HashMap::new();
         boundary.iter().for_each(|&(a, b)| [a, b].iter().for_each(|&v| *degree.entry(v).or_insert(0) += 1));
@@ -153,7 +161,10 @@ fn exact_coordinates_fill_the_disc_and_put_the_boundary_on_its_circle() {
         }
         for (v, w) in exact.iter().enumerate() {
             let radius = w[0].hypot(w[1]);
-            if on_boundary[v] {
+            if g.digital.is_some() {
+                // the rim is a staircase on the circle: off by a voxel, whose image is below 1/10 at the default size
+                assert!(if on_boundary[v] { (radius - 1.0).abs() < 0.1 } else { radius < 1.1 }, "{}: {radius}", g.name);
+            } else if on_boundary[v] {
                 // one or two roundings of numbers near 1
                 assert!((radius - 1.0).abs() < 4.0 * f64::EPSILON, "{}: vertex {v} at radius {radius}", g.name);
             } else {

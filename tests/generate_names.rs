@@ -92,7 +92,8 @@ fn the_table_is_consistent() {
             };
             let condition = p.only_with.map(|(name, values)| format!("{name}={}&", values[0])).unwrap_or_default();
             for end in ends {
-                match generate(&format!("{}?n=4&{condition}{}={end}", row.name, p.name)) {
+                let small = if row.all_parameters().any(|p| p.name == "n") { "n=4&" } else { "" };
+                match generate(&format!("{}?{small}{condition}{}={end}", row.name, p.name)) {
                     Ok(_) => {}
                     Err(GenerateError::Parameters(ParameterError::OutOfRange { circumstance, .. }))
                         if !circumstance.is_empty() => {}

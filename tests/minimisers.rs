@@ -31,7 +31,7 @@ struct Case {
 fn case(surface: &str, terms: &str, weight: Weight, fix: usize) -> Case {
     let disc = disc_of(surface);
     let graph = graph_of(&disc, "");
-    let metric = RestMetric::of_quads(&disc, &graph);
+    let metric = RestMetric::of_quads(&disc, &graph, None);
     let expression: Expression = terms.parse().unwrap();
     let circle = expression.has("C");
     let points = spread_points(&graph, fix);

@@ -5,7 +5,8 @@ mod common;
 use common::*;
 use num_complex::Complex64;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
-use riemap::quad_graph::{QuadGraph, QuadGraphError, RhoSource};
+use riemap::quad_graph::metric::RestMetric;
+use riemap::quad_graph::{QuadGraph, QuadGraphError, RestSource, TangentPlanes};
 use riemap::surface::disc::Disc;
 
 /// Two triangles or one quad, behind an unused vertex, so that the disc's numbers are not the source's.
@@ -22,7 +23,7 @@ fn degenerate_faces_are_named_with_the_vertices_of_the_source() {
     let mut quad = shifted(&[&[0, 1, 2, 3]], &SQUARE);
     quad.positions[3] = quad.positions[1];
     assert_eq!(
-        QuadGraph::from_quads(&quad, RhoSource::Positions),
+        QuadGraph::from_quads(&quad, None),
         Err(QuadGraphError::DegenerateQuad { face: 0, vertices: [1, 2, 3, 4] })
     );
     let mut triangles = shifted(&[&[0, 1, 2], &[0, 2, 3]], &SQUARE);
@@ -64,25 +65,60 @@ fn a_foot_beside_its_edge_is_named_with_the_vertices_of_the_source() {
 }
 
 #[test]
-fn normals_are_used_when_asked_for_and_missed_when_there_are_none() {
-    let mut quad = shifted(&[&[0, 1, 2, 3]], &SQUARE);
-    assert_eq!(QuadGraph::from_quads(&quad, RhoSource::Normals), Err(QuadGraphError::NoNormals));
-    let tilted = [0.6, 0.0, 0.8];
-    quad.face_normals = Some(vec![tilted]);
-    assert_eq!(QuadGraph::from_quads(&quad, RhoSource::Positions).expect("a square").rho, [Complex64::ONE]);
-    let seen = QuadGraph::from_quads(&quad, RhoSource::Normals).expect("seen from above");
-    assert!((seen.rho[0] - Complex64::new(1.6, -0.36) / (2.0 - 0.36)).norm() <= 1e-15);
+fn rho_is_measured_on_given_tangent_planes() {
+    let quad = shifted(&[&[0, 1, 2, 3]], &SQUARE);
+    let seen =
+        |normal| QuadGraph::from_quads(&quad, Some(&TangentPlanes::exactly(vec![normal], RestSource::Projected)));
+    let tilted = seen([0.6, 0.0, 0.8]).expect("seen from above");
+    assert!((tilted.rho[0] - Complex64::new(1.6, -0.36) / (2.0 - 0.36)).norm() <= 1e-15);
     for normal in [[1., 0., 0.], [0., 0., -1.], [f64::NAN; 3]] {
-        quad.face_normals = Some(vec![normal]);
-        let found = QuadGraph::from_quads(&quad, RhoSource::Normals);
+        let found = seen(normal);
         assert!(matches!(found, Err(QuadGraphError::NormalOffFace { face: 0, .. })), "{found:?}");
+    }
+}
+
+#[test]
+fn guarded_planes_are_never_edge_on_and_say_how_many_were_tilted() {
+    let quad = shifted(&[&[0, 1, 2, 3]], &SQUARE);
+    for normal in [[1., 0., 0.], [0., 0., -1.], [0.0, 0.6, -0.8]] {
+        let planes = TangentPlanes::guarded(&quad, vec![normal], RestSource::Projected);
+        assert_eq!(planes.tilted, 1);
+        let graph = QuadGraph::from_quads(&quad, Some(&planes)).expect("no longer edge-on");
+        assert!(graph.rho[0].re > 0.0 && graph.tilted == 1);
+        let [x, y, z] = planes.normals[0];
+        assert!(((x * x + y * y + z * z) - 1.0).abs() < 1e-15 && z >= TangentPlanes::SMALLEST_COSINE * (1.0 - 1e-15));
+        // Tilted in its own vertical plane.
+        assert!((x * normal[1] - y * normal[0]).abs() < 1e-15 && x * normal[0] + y * normal[1] >= 0.0);
+    }
+    let plain = TangentPlanes::guarded(&quad, vec![[0.6, 0.0, 0.8]], RestSource::Projected);
+    assert_eq!((plain.normals[0], plain.tilted), ([0.6, 0.0, 0.8], 0));
+}
+
+#[test]
+fn projected_rest_lengths_fit_rho_and_unit_ones_are_those_of_the_positions() {
+    let quad = shifted(&[&[0, 1, 2, 3]], &SQUARE);
+    let normal = [0.48, 0.36, 0.8];
+    for (rest, x, y, area) in [
+        (RestSource::Projected, (1.0 - 0.48f64.powi(2)).sqrt(), (1.0 - 0.36f64.powi(2)).sqrt(), 0.8),
+        (RestSource::Unit, 1.0, 1.0, 1.0),
+    ] {
+        let planes = TangentPlanes::exactly(vec![normal], rest);
+        let graph = QuadGraph::from_quads(&quad, Some(&planes)).expect("seen from above");
+        // ρ and the projected area are the same whatever is at rest.
+        assert!((graph.area(0) - 0.8).abs() < 1e-15);
+        let metric = RestMetric::of_quads(&quad, &graph, Some(&planes));
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-15;
+        let alternate = |lengths: &[f64]| lengths.iter().all(|&l| near(l, x) || near(l, y));
+        assert!(alternate(&graph.boundary_length) && alternate(&metric.length), "{rest:?} {graph:?} {metric:?}");
+        assert!(near(graph.perimeter(), 2.0 * (x + y)));
+        assert!(near(metric.folded_area[0], area) && metric.area.iter().all(|&a| near(a, 0.5 * area)));
     }
 }
 
 #[test]
 fn faces_of_the_wrong_kind_are_refused() {
     let (quads, triangles) = (disc_of("plane?n=2"), disc_of("plane?n=2&mesh=triangle"));
-    let refused = QuadGraph::from_quads(&triangles, RhoSource::Positions);
+    let refused = QuadGraph::from_quads(&triangles, None);
     assert_eq!(refused, Err(QuadGraphError::Corners { corners: 3 }));
     let refused = QuadGraph::from_triangles(&quads, DUAL_POINTS[0], BoundaryDual::Midpoint);
     assert_eq!(refused, Err(QuadGraphError::Corners { corners: 4 }));

@@ -21,7 +21,7 @@ fn error(surface: &str, mesh: &str, n: u32, dual: &str, weight: Weight) -> Error
     let mapped = run(&input, &options, &mut Silent).unwrap_or_else(|error| panic!("{name} {dual}: {error}"));
     assert!(mapped.map.anchored && mapped.map.iterations <= 20, "{name} {dual}: {}", mapped.map.iterations);
     assert_eq!(mapped.distortion.flipped, 0, "{name} {dual}");
-    ErrorRecord::new(input.exact.as_ref().unwrap(), &mapped.disc, &mapped.map)
+    ErrorRecord::new(input.exact.as_ref().unwrap(), &mapped.domain.disc, &mapped.map)
 }
 
 /// Largest errors at n = 16, 32, 64, their order, and that of the mean squares' roots.

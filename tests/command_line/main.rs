@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod constraints;
+mod digital;
 mod extremes;
 mod nonlinear;
 mod outputs;
@@ -71,7 +72,7 @@ fn every_command_has_help() {
         assert!(shell.done(&[command, "--help"]).contains(&format!("riemap {command}")));
     }
     let options = "--output --boundary --energy --fix --keep-order --tolerance --max-iterations --trace --shape --positions --pin --hold --weight --dual --boundary-dual --rho --solver \
-                   --system --report --picture --quiet";
+                   --system --report --picture --texture --quiet";
     let help = shell.done(&["map", "--help"]);
     for option in options.split(' ') {
         assert!(help.contains(option), "{option}");

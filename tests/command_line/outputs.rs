@@ -78,7 +78,8 @@ fn quiet_prints_nothing_and_otherwise_every_file_is_named() {
 fn pictures_are_what_their_extension_says() {
     let shell = Shell::new();
     shell.done(&["map", "enneper?n=6", "--picture", "p.png"]);
-    shell.done(&["map", "enneper?n=6", "--picture", "p.SVG"]);
+    shell.done(&["map", "enneper?n=6", "--picture", "p.SVG", "--texture", "t.png"]);
+    assert!(std::fs::read(shell.path("t.png")).unwrap().starts_with(b"\x89PNG\r\n"));
     assert!(std::fs::read(shell.path("p.png")).unwrap().starts_with(b"\x89PNG\r\n"));
     assert!(shell.read("p.SVG").contains("<svg"));
 }

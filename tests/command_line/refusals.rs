@@ -92,6 +92,10 @@ fn an_output_that_cannot_be_written_is_refused_before_any_other_is() {
         (&["-o", "old.obj", "--system", "no/a.mtx"], "no/a.mtx"),
         (&["-o", "old.obj", "--picture", "no/p.png"], "no/p.png"),
         (&["-o", "old.obj", "--picture", "p.gif"], "p.gif"),
+        (&["-o", "old.obj", "--texture", "no/t.png"], "no/t.png"),
+        (&["-o", "old.obj", "--texture", "t.svg"], "t.svg"),
+        (&["-o", "old.obj", "--texture", "t"], ".png"),
+        (&["-o", "old.obj", "--texture", "t.png", "--picture", "t.png"], "t.png"),
         (&["-o", "old.obj", "--report", "old.obj"], "old.obj"),
         (&["-o", "no/o.obj", "--report", "r.json"], "no/o.obj"),
         (&["-o", "o.stl", "--report", "r.json"], ".ply"),
@@ -144,11 +148,12 @@ fn a_backend_that_does_not_suit_says_what_would() {
         (&["--solver", "cholesky-real", "--hold", "primal"], &["`cholesky-real`", "--hold whole"]),
         (&["--solver", "cholesky-real", "--weight", "unit"], &["`cholesky-real`", "--weight integral"]),
         (&["--dual", "circumcentre", "--hold", "whole"], &["Re ρ", "--weight unit", "--dual barycentre"]),
-        (&["--rho", "normals"], &["--rho normals", "quad"]),
+        (&["--rho", "normals"], &["--rho", "quad"]),
+        (&["--normals", "hat"], &["--normals", "quad"]),
     ] {
         let message = shell.refused(&[&["map", "t.obj"], &FIXED, options, &FILES[..]].concat());
         assert!(words.iter().all(|word| message.contains(word)), "{options:?}: {message}");
     }
     shell.write("q.obj", hill(5, 1.0, true));
-    assert!(shell.refused(&["map", "q.obj", "--rho", "normals"]).contains("--rho positions"));
+    assert!(shell.refused(&["map", "q.obj", "--rho", "normals"]).contains("--normals auto"));
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use num_complex::Complex64;
 use riemap::constraint::Fixed;
+use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint, dual_point};
-use riemap::quad_graph::{QuadGraph, RhoSource};
 use riemap::surface::diagnosis::Diagnosis;
 use riemap::surface::disc::Disc;
 use riemap::surface::generate::generate;
@@ -251,7 +251,7 @@ pub fn disc_of(name: &str) -> Disc {
 #[track_caller]
 pub fn graph_of(disc: &Disc, dual: &str) -> QuadGraph {
     let graph = match disc.faces.arity() {
-        Some(4) => QuadGraph::from_quads(disc, RhoSource::Positions),
+        Some(4) => QuadGraph::from_quads(disc, None),
         _ => QuadGraph::from_triangles(disc, dual_point(dual).expect(dual), BoundaryDual::Midpoint),
     };
     graph.unwrap_or_else(|error| panic!("{error}"))

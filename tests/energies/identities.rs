@@ -82,7 +82,7 @@ fn h_and_a_do_not_see_black_and_white_vertices_sheared_against_each_other() {
     }
     let disc = disc(&grid);
     let graph = graph_of(&disc, "");
-    let metric = RestMetric::of_quads(&disc, &graph);
+    let metric = RestMetric::of_quads(&disc, &graph, None);
     let (class, classes) = graph.diagonal_classes();
     assert_eq!(classes, 2);
     let at: Vec<Complex64> = disc.positions.iter().map(|p| Complex64::new(p[0], p[1])).collect();

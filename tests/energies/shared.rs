@@ -24,7 +24,7 @@ impl Case {
     pub fn quads(name: &str) -> Self {
         let disc = disc_of(name);
         let graph = graph_of(&disc, "");
-        let metric = RestMetric::of_quads(&disc, &graph);
+        let metric = RestMetric::of_quads(&disc, &graph, None);
         Case { name: name.to_owned(), disc, graph, metric }
     }
 
