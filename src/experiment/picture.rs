@@ -76,7 +76,7 @@ impl Up {
 /// # Errors
 /// A map that cannot be drawn.
 pub fn flat_map(mapped: &Mapped, title: &str, format: Format) -> Result<Vec<u8>, FigureError> {
-    FlatParts::of(mapped).figure(title).render(format)
+    FlatParts::of(mapped, &maps(mapped)).figure(title).render(format)
 }
 
 /// The surface, shaded, with the checkerboard that its map lays on it: conformal where the squares are squares. Flipped
@@ -85,7 +85,7 @@ pub fn flat_map(mapped: &Mapped, title: &str, format: Format) -> Result<Vec<u8>,
 /// # Errors
 /// A surface or a map that cannot be drawn.
 pub fn checkerboard(input: &Input, mapped: &Mapped, look: Checkerboard, title: &str) -> Result<Vec<u8>, FigureError> {
-    let parts = ViewParts::of(mapped, look.squares)?;
+    let parts = ViewParts::of(mapped, &maps(mapped), look.squares)?;
     SurfaceView { title, ..parts.figure(input, mapped, look) }.render(SurfaceView::SIZE)
 }
 
@@ -99,7 +99,8 @@ pub fn checkerboard_pair(
     look: Checkerboard,
     caption: &str,
 ) -> Result<Vec<u8>, FigureError> {
-    let (flat, view) = (FlatParts::of(mapped), ViewParts::of(mapped, look.squares)?);
+    let maps = maps(mapped);
+    let (flat, view) = (FlatParts::of(mapped, &maps), ViewParts::of(mapped, &maps, look.squares)?);
     Pair { flat: &flat.figure(""), view: &view.figure(input, mapped, look), caption }.render()
 }
 
@@ -113,11 +114,11 @@ struct ViewParts {
 }
 
 impl ViewParts {
-    fn of(mapped: &Mapped, squares: usize) -> Result<ViewParts, FigureError> {
+    fn of(mapped: &Mapped, maps: &[FaceMap], squares: usize) -> Result<ViewParts, FigureError> {
         let disc = &mapped.domain.disc;
         let faces: Faces = disc.faces.renumbered(&disc.source_vertex).iter().take(disc.source_faces()).collect();
         let uv = texture(mapped, squares)?;
-        Ok(ViewParts { faces, uv, flipped: flipped(&maps(mapped)), cut: cut(disc) })
+        Ok(ViewParts { faces, uv, flipped: flipped(maps), cut: cut(disc) })
     }
 
     fn figure<'a>(&'a self, input: &'a Input, mapped: &'a Mapped, look: Checkerboard) -> SurfaceView<'a> {
@@ -181,8 +182,8 @@ struct FlatParts {
 }
 
 impl FlatParts {
-    fn of(mapped: &Mapped) -> FlatParts {
-        let (disc, maps) = (&mapped.domain.disc, maps(mapped));
+    fn of(mapped: &Mapped, maps: &[FaceMap]) -> FlatParts {
+        let disc = &mapped.domain.disc;
         let (points, faces) = match &mapped.torus {
             None => {
                 let points = mapped.map.z[..mapped.domain.graph.primal].iter().map(|z| [z.re, z.im]).collect();
@@ -194,7 +195,7 @@ impl FlatParts {
                 (unfolded.coordinates(torus, Tiling::Conformal), (0..maps.len()).map(face).collect())
             }
         };
-        FlatParts { points, faces, values: quasi_conformal_errors(&maps), flipped: flipped(&maps) }
+        FlatParts { points, faces, values: quasi_conformal_errors(maps), flipped: flipped(maps) }
     }
 
     fn figure<'a>(&'a self, title: &'a str) -> FlatMap<'a> {

@@ -84,9 +84,14 @@ pub(super) fn planes(
     }
     // Where the surface is cut it has no neighbours any more: estimated on the whole.
     let turned = oriented(&input.surface, diagnosis);
-    let surface = turned.as_ref().unwrap_or(&input.surface);
-    let edges = Edges::new(&surface.faces, surface.positions.len());
-    let estimated = spec.estimate(&Facets::new(surface, &edges, input.digital.as_ref())?)?;
+    let facets = match &turned {
+        None => Facets::new(&input.surface, &diagnosis.topology.edges, input.digital.as_ref()),
+        Some(turned) => {
+            let edges = Edges::new(&turned.faces, turned.positions.len());
+            Facets::new(turned, &edges, input.digital.as_ref())
+        }
+    }?;
+    let estimated = spec.estimate(&facets)?;
     let of_face = |f: usize| match disc.source_face[f] {
         Disc::NEW => own_normal(disc, disc.faces.get(f)).unwrap_or_default(),
         source => estimated[source as usize],

@@ -2,6 +2,7 @@
 
 use super::disc::Disc;
 use super::edges::{Edges, next_in};
+use super::orientation::same_direction;
 use super::tree_cotree::{EdgeGraph, ShortestPaths, TreeCotree};
 use super::vector;
 
@@ -189,13 +190,9 @@ impl Homology {
 
 /// A face that runs through an edge in the same direction as its neighbour.
 fn disagreeing(disc: &Disc, edges: &Edges) -> Option<usize> {
-    let vertex = disc.faces.corners();
-    let ends = |c: u32| {
-        let face = edges.face_of_corner[c as usize] as usize;
-        [vertex[c as usize], vertex[next_in(&disc.faces, face, c as usize)]]
-    };
+    let placed = |c: u32| (edges.face_of_corner[c as usize] as usize, c as usize);
     let edge = (0..edges.len()).find(|&e| match *edges.corners(e) {
-        [c, d] => ends(c) != [ends(d)[1], ends(d)[0]],
+        [c, d] => same_direction(&disc.faces, placed(c), placed(d)),
         _ => true,
     })?;
     Some(edges.face_of_corner[edges.corners(edge)[0] as usize] as usize)

@@ -82,7 +82,7 @@ impl Orientation {
 }
 
 /// Whether two faces run through their common edge in the same direction, which neighbours that agree never do.
-fn same_direction(faces: &Faces, (f, c): (usize, usize), (g, d): (usize, usize)) -> bool {
+pub(super) fn same_direction(faces: &Faces, (f, c): (usize, usize), (g, d): (usize, usize)) -> bool {
     let vertex = faces.corners();
     vertex[c] == vertex[d] && vertex[next_in(faces, f, c)] == vertex[next_in(faces, g, d)]
 }

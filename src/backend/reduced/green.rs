@@ -6,7 +6,6 @@ use num_complex::Complex64;
 
 use super::Reduction;
 use super::angles::is_ascending;
-use crate::quad_graph::QuadGraph;
 
 /// The share of the mean gap below which gaps are lifted: fluxes may be negative on misshapen quads, or vanish.
 const SMALLEST_GAP: f64 = 1e-9;
@@ -15,7 +14,7 @@ const SMALLEST_GAP: f64 = 1e-9;
 /// uniform measure, which is the flux of the Green's function. A black and a white pole, for D all but separates the
 /// colours; the flux of each turns by π. `None` where there is no interior or the flux is no measure.
 pub(super) fn green_angles(reduction: &Reduction) -> Option<Vec<f64>> {
-    let poles = poles(reduction.graph)?;
+    let poles = poles(reduction)?;
     let flux = reduction.flux(&poles.map(|v| (v, Complex64::ONE)));
     let n = flux.len();
     let mut gaps: Vec<f64> = (0..n).map(|k| 0.5 * PI * (flux[k].re + flux[(k + 1) % n].re)).collect();
@@ -38,7 +37,8 @@ pub(super) fn green_angles(reduction: &Reduction) -> Option<Vec<f64>> {
 }
 
 /// Two neighbouring interior vertices, one of each colour, as far from the boundary as any.
-fn poles(graph: &QuadGraph) -> Option<[u32; 2]> {
+fn poles(reduction: &Reduction) -> Option<[u32; 2]> {
+    let graph = reduction.graph;
     let incidence = graph.incidence();
     let mut reached = vec![false; graph.vertices];
     let mut queue = graph.boundary.clone();
@@ -57,15 +57,11 @@ fn poles(graph: &QuadGraph) -> Option<[u32; 2]> {
         }
         head += 1;
     }
-    let mut is_boundary = vec![false; graph.vertices];
-    for &v in &graph.boundary {
-        is_boundary[v as usize] = true;
-    }
     queue[on_boundary..].iter().rev().find_map(|&v| {
         incidence.quads_at(v).iter().find_map(|&q| {
             let quad = graph.quads[q as usize];
             let k = quad.iter().position(|&w| w == v)?;
-            [quad[(k + 1) % 4], quad[(k + 3) % 4]].into_iter().find(|&w| !is_boundary[w as usize]).map(|w| [v, w])
+            [quad[(k + 1) % 4], quad[(k + 3) % 4]].into_iter().find(|&w| reduction.is_inside(w)).map(|w| [v, w])
         })
     })
 }

@@ -5,9 +5,11 @@ use std::cell::RefCell;
 use num_complex::Complex64;
 
 use super::Unreduced;
+use crate::backend::linear::normal::{pattern, real_values};
+use crate::constraint::{Elimination, Fixed};
 use crate::energy::conformal::{Weight, block, weights};
 use crate::quad_graph::QuadGraph;
-use crate::sparse::{Columns2, Pattern, PrunedCholesky, Stencils, pairs_of};
+use crate::sparse::{Columns2, Pattern, PrunedCholesky};
 
 /// `K = c (shift ahead − shift back)` along the boundary.
 pub(super) const C: f64 = 0.25;
@@ -24,10 +26,8 @@ pub(super) const C: f64 = 0.25;
 pub struct Reduction<'a> {
     /// The graph.
     pub graph: &'a QuadGraph,
-    /// The vertex of each interior unknown, ascending.
-    interior: Vec<u32>,
-    /// The unknown of each vertex; [`Pattern::NONE`] on the boundary.
-    unknown: Vec<u32>,
+    /// The boundary held: what is left is the interior.
+    elimination: Elimination,
     /// Of D_II; `None` without interior vertices.
     factor: Option<PrunedCholesky>,
     /// D_BI: (boundary position, port, value), by position.
@@ -54,19 +54,16 @@ impl<'a> Reduction<'a> {
         for (k, &v) in graph.boundary.iter().enumerate() {
             position[v as usize] = k as u32;
         }
-        let interior: Vec<u32> =
-            (0..graph.vertices as u32).filter(|&v| position[v as usize] == Pattern::NONE).collect();
-        let mut unknown = vec![Pattern::NONE; graph.vertices];
-        for (u, &v) in interior.iter().enumerate() {
-            unknown[v as usize] = u as u32;
-        }
-        let real_block = |q: usize| block(graph.rho[q], w[q]).map(|row| row.map(|entry| entry.re));
+        let mut fixed = Fixed::default();
+        graph.boundary.iter().for_each(|&v| fixed.hold(v, Complex64::ZERO));
+        let elimination = Elimination::new(graph.vertices, &fixed);
+        let unknown = &elimination.unknown;
         let (mut outward, mut along) = (Vec::new(), Vec::new());
         for (q, quad) in graph.quads.iter().enumerate() {
             if quad.iter().all(|&v| position[v as usize] == Pattern::NONE) {
                 continue;
             }
-            let block = real_block(q);
+            let block = block(graph.rho[q], w[q]).map(|row| row.map(|entry| entry.re));
             for (i, &v) in quad.iter().enumerate().filter(|(_, v)| position[**v as usize] != Pattern::NONE) {
                 for (j, &other) in quad.iter().enumerate() {
                     let (row, port) = (position[v as usize], unknown[other as usize]);
@@ -86,27 +83,25 @@ impl<'a> Reduction<'a> {
             *port = ports.partition_point(|p| p < port) as u32;
         }
         let count = ports.len();
-        let factor = if interior.is_empty() {
+        let unknowns = elimination.unknowns();
+        let factor = if unknowns == 0 {
             None
         } else {
-            let pattern = Pattern::new(&[&Stencils::new(&graph.quads)], &unknown, interior.len());
-            let mut values = vec![0.0; pattern.columns.rows.len()];
-            for q in 0..graph.quads.len() {
-                let block = real_block(q);
-                for (&slot, (i, j)) in pattern.slots(0, q, 4).iter().zip(pairs_of(4)) {
-                    if slot != Pattern::NONE {
-                        values[slot as usize] += block[i][j];
-                    }
-                }
-            }
-            let columns = pattern.columns;
+            let pattern = pattern(graph, &elimination);
+            let values = real_values(&pattern, graph, &elimination, &w);
+            let columns = pattern.into_columns();
             factoring();
-            let broken = |reason| Unreduced::Factorisation { unknowns: interior.len(), reason };
+            let broken = |reason| Unreduced::Factorisation { unknowns, reason };
             Some(PrunedCholesky::new(&columns, &values, ports).map_err(broken)?)
         };
         let columns = factor.as_ref().map(PrunedCholesky::work);
         let work = RefCell::new(Work { columns, at_ports: vec![Complex64::ZERO; count], products: 0 });
-        Ok(Reduction { graph, interior, unknown, factor, outward, along, work })
+        Ok(Reduction { graph, elimination, factor, outward, along, work })
+    }
+
+    /// Whether vertex `v` is not on the boundary.
+    pub(super) fn is_inside(&self, v: u32) -> bool {
+        self.elimination.is_free(v)
     }
 
     /// Number of boundary vertices.
@@ -166,7 +161,7 @@ impl<'a> Reduction<'a> {
         let work = &mut *self.work.borrow_mut();
         if let (Some(factor), Some(columns)) = (&self.factor, &mut work.columns) {
             self.inward(z, &mut work.at_ports);
-            for (&v, z) in self.interior.iter().zip(factor.solve_from_ports(&work.at_ports, columns)) {
+            for (&v, z) in self.elimination.free.iter().zip(factor.solve_from_ports(&work.at_ports, columns)) {
                 map[v as usize] = -z;
             }
         }
@@ -176,7 +171,7 @@ impl<'a> Reduction<'a> {
     /// The flux `−D_BI D_II⁻¹ e` (`nb`) that leaves through the boundary when e, a few sources (vertex, strength), is fed
     /// into the interior; sources on the boundary leave at once.
     pub fn flux(&self, sources: &[(u32, Complex64)]) -> Vec<Complex64> {
-        let inside = |v: u32| self.unknown[v as usize];
+        let inside = |v: u32| self.elimination.unknown[v as usize];
         let sources: Vec<_> = sources.iter().map(|&(v, e)| (inside(v), e)).filter(|s| s.0 != Pattern::NONE).collect();
         let work = &mut *self.work.borrow_mut();
         let mut flux = vec![Complex64::ZERO; self.len()];
@@ -195,7 +190,7 @@ impl<'a> Reduction<'a> {
         let mut flux: Vec<f64> = self.graph.boundary.iter().map(|&v| sources[v as usize]).collect();
         if let (Some(factor), Some(columns)) = (&self.factor, &mut work.columns) {
             let inside: Vec<Complex64> =
-                self.interior.iter().map(|&v| Complex64::new(sources[v as usize], 0.0)).collect();
+                self.elimination.free.iter().map(|&v| Complex64::new(sources[v as usize], 0.0)).collect();
             let potential = factor.solve_to_ports(inside.iter().enumerate().map(|(u, &e)| (u as u32, e)), columns);
             for &(row, port, value) in &self.outward {
                 flux[row as usize] -= value * potential[port as usize].re;

@@ -36,18 +36,15 @@ pub(super) fn start(reduction: &Reduction, curvature: &[f64], lengths: &[f64]) -
 /// of it, its own and what it takes over from its neighbours of the other.
 fn turning(reduction: &Reduction, curvature: &[f64]) -> Vec<f64> {
     let graph = reduction.graph;
-    let mut is_boundary = vec![false; graph.vertices];
-    for &v in &graph.boundary {
-        is_boundary[v as usize] = true;
-    }
+    let inside = |v: usize| reduction.is_inside(v as u32);
     let mut doubled: Vec<f64> =
-        curvature.iter().zip(&is_boundary).map(|(&omega, &outer)| if outer { 0.0 } else { omega }).collect();
+        curvature.iter().enumerate().map(|(v, &omega)| if inside(v) { omega } else { 0.0 }).collect();
     // Inside, every neighbour is the next vertex in one quad.
     let degrees = next_counts(graph);
     for quad in &graph.quads {
         for k in 0..4 {
             let (v, w) = (quad[k] as usize, quad[(k + 1) % 4] as usize);
-            if !is_boundary[v] {
+            if inside(v) {
                 doubled[w] += curvature[v] / f64::from(degrees[v]);
             }
         }

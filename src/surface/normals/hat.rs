@@ -73,7 +73,8 @@ struct Walk<'a, 'b> {
     distance: Vec<f64>,
     /// The last centre from which a face was seen.
     seen: Vec<u32>,
-    heap: BinaryHeap<Reverse<(Distance, u32)>>,
+    /// Distances are not negative: their bits are in their order.
+    heap: BinaryHeap<Reverse<(u64, u32)>>,
     queue: Vec<u32>,
 }
 
@@ -93,9 +94,9 @@ impl<'a, 'b> Walk<'a, 'b> {
         let centre = f as u32;
         self.distance[f] = 0.0;
         self.seen[f] = centre;
-        self.heap.push(Reverse((Distance(0.0), centre)));
-        while let Some(Reverse((Distance(distance), g))) = self.heap.pop() {
-            let g = g as usize;
+        self.heap.push(Reverse((0f64.to_bits(), centre)));
+        while let Some(Reverse((distance, g))) = self.heap.pop() {
+            let (distance, g) = (f64::from_bits(distance), g as usize);
             if distance > self.distance[g] {
                 continue;
             }
@@ -106,7 +107,7 @@ impl<'a, 'b> Walk<'a, 'b> {
                 if far < radius && (self.seen[k] != centre || far < self.distance[k]) {
                     self.seen[k] = centre;
                     self.distance[k] = far;
-                    self.heap.push(Reverse((Distance(far), next)));
+                    self.heap.push(Reverse((far.to_bits(), next)));
                 }
             }
         }
@@ -135,23 +136,5 @@ impl<'a, 'b> Walk<'a, 'b> {
             }
             at += 1;
         }
-    }
-}
-
-/// A finite length, ordered.
-#[derive(Clone, Copy, PartialEq)]
-struct Distance(f64);
-
-impl Eq for Distance {}
-
-impl PartialOrd for Distance {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Distance {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
     }
 }
