@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 use serde::Serialize;
 
-use crate::distortion::Distortion;
+use crate::distortion::{Distortion, Validity};
 use crate::input::Input;
 use crate::map::{Domain, Exactly, Map, Mapped};
 use crate::periodic::PeriodsRecord;
@@ -123,8 +123,11 @@ pub struct SolverRecord {
     /// `solved`; iterative ones: `converged`, `precision` (rounding keeps the energy from falling further),
     /// `max-iterations`, `interrupted`.
     pub status: &'static str,
-    /// Every face positive (quads: convex), boundary simple.
+    /// One-to-one by the exact check of the doubles that are written: every face positive (quads: all four corners), the
+    /// boundary simple.
     pub valid: bool,
+    /// The same near every point: every face positive, once around every vertex; the boundary of a free map may overlap.
+    pub locally_injective: bool,
     /// Whether a valid map was put in the place of the plain one.
     pub repaired: bool,
     /// Iterations; 0 for direct solvers.
@@ -170,7 +173,7 @@ pub struct ErrorRecord {
 impl Report {
     /// The record of a map.
     pub fn new(input: &Input, mapped: &Mapped, seconds: Seconds) -> Self {
-        let Mapped { component, domain, map, distortion, .. } = mapped;
+        let Mapped { component, domain, map, distortion, validity, .. } = mapped;
         let Domain { disc, graph, .. } = domain;
         // The exact periods of generated surfaces are periods.
         let exact = input.period.map(|[re, im]| Complex64::new(re, im));
@@ -180,7 +183,7 @@ impl Report {
             cut: Some(mapped.cut.clone()).filter(|cut| !cut.is_empty()),
             quad_graph: QuadGraphRecord::new(graph),
             energy: EnergyRecord::new(map),
-            solver: SolverRecord::new(map, distortion, seconds),
+            solver: SolverRecord::new(map, validity, seconds),
             distortion: distortion.clone(),
             periods,
             error: input.exact.as_ref().filter(|_| map.anchored).map(|w| ErrorRecord::new(w, disc, map)),
@@ -247,11 +250,12 @@ impl QuadGraphRecord {
 
 impl SolverRecord {
     /// The record of a solution.
-    pub fn new(map: &Map, distortion: &Distortion, seconds: Seconds) -> Self {
+    pub fn new(map: &Map, validity: &Validity, seconds: Seconds) -> Self {
         SolverRecord {
             backend: map.backend,
             status: map.outcome.name(),
-            valid: distortion.is_valid(),
+            valid: validity.is_one_to_one(),
+            locally_injective: validity.is_locally_one_to_one(),
             repaired: false,
             iterations: map.iterations,
             gradient_norm: map.gradient_norm,

@@ -73,7 +73,7 @@ fn energies_with_unit_weights_are_those_of_an_independent_minimiser() {
     show("H + C", &circle);
     assert!(total(&circle) < 1e-15 && circle.map.iterations <= 20, "{}", total(&circle));
     assert!(circle.map.smallest_singular_value.unwrap() > 1e-3);
-    assert!(circle.distortion.is_valid() && circle.distortion.boundary_out_of_order == Some(0));
+    assert!(circle.validity.is_one_to_one() && circle.distortion.boundary_out_of_order == Some(0));
 }
 
 #[test]

@@ -1,3 +1,9 @@
+//! Whether a polygon is simple, by a sweep with exact predicates.
+
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+use std::ops::Bound;
+
 use num_complex::Complex64;
 
 use super::predicate::orientation;
@@ -5,25 +11,108 @@ use super::predicate::orientation;
 /// Two edges of a closed polygon that meet where they should not: edge k runs from vertex k to the next. `None`: the
 /// polygon is simple. Exact.
 ///
-/// Sweeps over the edges in the order of their left ends, comparing each with those whose extents overlap.
+/// Shamos and Hoey's sweep: edges enter at their left ends and leave at their right ones, those in between are kept in
+/// order, and only neighbours in this order are compared. The leftmost point where two edges meet is found before the order could be
+/// wrong. `n log n` predicates for n edges, whatever the polygon.
 pub fn boundary_crossing(polygon: &[Complex64]) -> Option<[usize; 2]> {
     let n = polygon.len();
-    let ends = |k: usize| (polygon[k], polygon[(k + 1) % n]);
-    let left = |k: usize| ends(k).0.re.min(ends(k).1.re);
-    let right = |k: usize| ends(k).0.re.max(ends(k).1.re);
+    if let Some(k) = polygon.iter().position(|z| !z.is_finite()) {
+        return Some([k.min((k + n - 1) % n), k.max((k + n - 1) % n)]);
+    }
+    let before = |a: &usize, b: &usize| lexicographic(polygon[*a], polygon[*b]);
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| left(a).total_cmp(&left(b)));
-    let mut active: Vec<usize> = Vec::new();
-    for &k in &order {
-        active.retain(|&other| right(other) >= left(k));
-        for &other in &active {
-            if edges_meet(polygon, k.min(other), k.max(other)) {
-                return Some([k.min(other), k.max(other)]);
+    order.sort_by(|a, b| before(a, b).then(a.cmp(b)));
+    // Vertices at one place would not be seen by edges that have gone.
+    if let Some(pair) = order.windows(2).find(|pair| polygon[pair[0]] == polygon[pair[1]]) {
+        return Some([pair[0].min(pair[1]), pair[0].max(pair[1])]);
+    }
+    let mut active: BTreeSet<Edge> = BTreeSet::new();
+    let edge = |k: usize| Edge { polygon, k };
+    let meet = |a: usize, b: usize| edges_meet(polygon, a.min(b), a.max(b)).then_some([a.min(b), a.max(b)]);
+    for v in order {
+        let [left, right] = [(v + n - 1) % n, v];
+        let leaves = |k: usize| edge(k).ends().1 == polygon[v];
+        for k in [left, right].into_iter().filter(|&k| leaves(k)) {
+            let (below, above) = neighbours(&active, edge(k));
+            active.remove(&edge(k));
+            if let (Some(a), Some(b)) = (below, above)
+                && let Some(pair) = meet(a, b)
+            {
+                return Some(pair);
             }
         }
-        active.push(k);
+        for k in [left, right].into_iter().filter(|&k| !leaves(k)) {
+            // An edge that is in no order to this one touches it.
+            if let Some(other) = active.get(&edge(k)) {
+                return Some([k.min(other.k), k.max(other.k)]);
+            }
+            let (below, above) = neighbours(&active, edge(k));
+            if let Some(pair) = [below, above].into_iter().flatten().find_map(|other| meet(k, other)) {
+                return Some(pair);
+            }
+            active.insert(edge(k));
+        }
     }
     None
+}
+
+/// By real parts, then by imaginary ones.
+fn lexicographic(a: Complex64, b: Complex64) -> Ordering {
+    let order = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
+    order(a.re, b.re).then(order(a.im, b.im))
+}
+
+/// An edge of a polygon among those that some line from bottom to top meets, ordered along it. The line leans to the left by
+/// nothing, so to speak, and meets a vertical edge at one point.
+#[derive(Clone, Copy)]
+struct Edge<'a> {
+    polygon: &'a [Complex64],
+    k: usize,
+}
+
+impl Edge<'_> {
+    /// The left end and the right one.
+    fn ends(&self) -> (Complex64, Complex64) {
+        let (a, b) = (self.polygon[self.k], self.polygon[(self.k + 1) % self.polygon.len()]);
+        if lexicographic(a, b) == Ordering::Greater { (b, a) } else { (a, b) }
+    }
+}
+
+impl Ord for Edge<'_> {
+    /// By the place of the later of the two left ends with respect to the other edge; equal where it lies on that.
+    fn cmp(&self, other: &Self) -> Ordering {
+        if self.k == other.k {
+            return Ordering::Equal;
+        }
+        let ((a, b), (c, d)) = (self.ends(), other.ends());
+        let side = |s: f64| s.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        match lexicographic(a, c) {
+            Ordering::Greater => side(orientation(c, d, a)),
+            Ordering::Less => side(orientation(a, b, c)).reverse(),
+            Ordering::Equal => side(orientation(c, d, b)),
+        }
+    }
+}
+
+impl PartialOrd for Edge<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Edge<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Edge<'_> {}
+
+/// The edges below and above.
+fn neighbours(active: &BTreeSet<Edge>, edge: Edge) -> (Option<usize>, Option<usize>) {
+    let below = active.range((Bound::Unbounded, Bound::Excluded(edge))).next_back();
+    let above = active.range((Bound::Excluded(edge), Bound::Unbounded)).next();
+    (below.map(|e| e.k), above.map(|e| e.k))
 }
 
 /// Whether edges `i < j` share a point, other than the vertex that neighbours have in common.
@@ -57,6 +146,8 @@ pub fn out_of_order(polygon: &[Complex64]) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     fn polygon(points: &[(f64, f64)]) -> Vec<Complex64> {
@@ -69,6 +160,11 @@ mod tests {
         assert_eq!(boundary_crossing(&polygon(&[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])), None);
         // Collinear neighbours that go on straight.
         assert_eq!(boundary_crossing(&polygon(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (1.0, 1.0)])), None);
+        // Edges straight up and down.
+        let comb =
+            polygon(&[(0.0, 0.0), (5.0, 0.0), (5.0, 3.0), (4.0, 3.0), (4.0, 1.0), (3.0, 1.0), (3.0, 3.0), (0.0, 3.0)]);
+        assert_eq!(boundary_crossing(&comb), None);
+        assert_eq!(boundary_crossing(&[]), None);
     }
 
     #[test]
@@ -80,5 +176,37 @@ mod tests {
         assert!(boundary_crossing(&polygon(&[(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (1.0, 1.0)])).is_some());
         // Two vertices at one place.
         assert!(boundary_crossing(&polygon(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 1.0)])).is_some());
+    }
+
+    #[test]
+    fn long_polygons_take_no_longer_than_their_length() {
+        // A comb of 50 000 long teeth that lie on their side: each line from bottom to top meets all of them.
+        let mut comb = vec![Complex64::new(-1.0, 0.0)];
+        for k in 0..50_000 {
+            let y = f64::from(k);
+            comb.extend(
+                [(1e3, y), (1e3, y + 0.25), (0.0, y + 0.25), (0.0, y + 1.0)].map(|(x, y)| Complex64::new(x, y)),
+            );
+        }
+        comb.push(Complex64::new(-1.0, 5e4));
+        assert_eq!(boundary_crossing(&comb), None);
+        let last = comb.len() - 3;
+        comb[last].re = -2.0;
+        assert!(boundary_crossing(&comb).is_some());
+    }
+
+    proptest! {
+        /// Few places for many vertices: touches, overlaps and edges straight up are the rule. All pairs are the reference.
+        #[test]
+        fn sweep_agrees_with_all_pairs(points in prop::collection::vec((0u8..9, 0u8..9), 3..9)) {
+            let points: Vec<_> = points.iter().map(|&(x, y)| Complex64::new(x.into(), y.into())).collect();
+            let n = points.len();
+            let pairs = || (0..n).flat_map(|j| (0..j).map(move |i| (i, j)));
+            let meets = pairs().any(|(i, j)| edges_meet(&points, i, j)) || (0..n).any(|k| points[k] == points[(k + 1) % n]);
+            match boundary_crossing(&points) {
+                None => prop_assert!(!meets),
+                Some([i, j]) => prop_assert!(meets && i < j && j < n),
+            }
+        }
     }
 }

@@ -4,10 +4,13 @@ mod boundary;
 mod image;
 mod predicate;
 mod singular;
+mod validity;
 
 pub use boundary::{boundary_crossing, out_of_order};
 pub use image::Image;
+pub use predicate::orientation;
 pub use singular::{FaceMap, face_maps};
+pub use validity::Validity;
 
 use num_complex::Complex64;
 use serde::Serialize;
@@ -90,11 +93,6 @@ impl Distortion {
             boundary_crosses: boundary_crossing(&mesh_boundary(graph, image.z)).is_some(),
             boundary_out_of_order: None,
         }
-    }
-
-    /// Whether the map is one-to-one as far as this tells: every face positive, quads convex, the boundary simple.
-    pub fn is_valid(&self) -> bool {
-        self.flipped == 0 && self.not_convex == 0 && !self.boundary_crosses
     }
 }
 

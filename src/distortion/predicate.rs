@@ -3,10 +3,35 @@
 use num_complex::Complex64;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-/// Positive where a, b, c turn left, negative where they turn right, 0 on a line.
-pub(super) fn orientation(a: Complex64, b: Complex64, c: Complex64) -> f64 {
+/// Positive where a, b, c turn left, negative where they turn right, 0 on a line: the sign is exact.
+///
+/// Coordinates near the ends of the range of doubles are scaled by a power of two first; 0 as well where one is 10²⁹⁰ times
+/// another, so that no power of two brings both away from these ends.
+pub fn orientation(a: Complex64, b: Complex64, c: Complex64) -> f64 {
+    let points = [a, b, c];
+    let fits = |z: &Complex64| fits(z.re) && fits(z.im);
+    let [a, b, c] = if points.iter().all(fits) {
+        points
+    } else {
+        let largest = points.iter().fold(0.0, |m: f64, z| m.max(z.re.abs()).max(z.im.abs()));
+        // 0 and subnormal numbers have the exponent −1023 here: they are scaled up by less than they could be.
+        let exponent = (largest.to_bits() >> 52) as i32 - 1023;
+        let (half, rest) = ((498 - exponent) / 2, (498 - exponent) - (498 - exponent) / 2);
+        let scale = |x: f64| x * 2f64.powi(half) * 2f64.powi(rest);
+        let scaled = points.map(|z| Complex64::new(scale(z.re), scale(z.im)));
+        let vanishes = |(z, w): (&Complex64, &Complex64)| (z.re != 0.0 && w.re == 0.0) || (z.im != 0.0 && w.im == 0.0);
+        if !scaled.iter().all(fits) || points.iter().zip(&scaled).any(vanishes) {
+            return 0.0;
+        }
+        scaled
+    };
     let coord = |z: Complex64| Coord { x: z.re, y: z.im };
     orient2d(coord(a), coord(b), coord(c))
+}
+
+/// Whether products of two such coordinates have their last bits, and those of their rounding errors, in the range of doubles.
+fn fits(x: f64) -> bool {
+    x == 0.0 || (1e-140..=1e150).contains(&x.abs())
 }
 
 /// Whether (z2 − z0) × (z3 − z1) > 0: the sign of the volume of the tetrahedron with one diagonal at height 0 and the
@@ -36,5 +61,25 @@ mod tests {
         let at = Complex64::new;
         assert!(!diagonals_cross_left([at(0.0, 0.0), at(0.0, 0.0), at(1.0 + e, 1.0), at(1.0, 1.0 - e)]));
         assert!(diagonals_cross_left([at(0.0, 0.0), at(0.0, 0.0), at(1.0, 1.0 - e), at(1.0 + e, 1.0)]));
+    }
+
+    #[test]
+    fn sign_of_an_area_is_exact_where_products_underflow_or_overflow() {
+        let e = f64::EPSILON;
+        let at = Complex64::new;
+        let shallow = |scale: f64| orientation(at(0.0, 0.0), at(1.0 + e, 1.0) * scale, at(1.0, 1.0 - e) * scale);
+        for exponent in [-1000, -700, -500, -300, 0, 300, 480, 520, 1000] {
+            let scale = 2f64.powi(exponent);
+            assert!(shallow(scale) < 0.0, "2^{exponent}");
+            assert!(orientation(at(0.0, 0.0), at(scale, 0.0), at(scale, scale)) > 0.0, "2^{exponent}");
+            assert_eq!(orientation(at(scale, scale), at(2.0 * scale, 2.0 * scale), at(0.0, 0.0)), 0.0, "2^{exponent}");
+        }
+        // The smallest of all triangles.
+        let tiny = f64::from_bits(1);
+        assert!(orientation(at(0.0, 0.0), at(tiny, 0.0), at(0.0, tiny)) > 0.0);
+        assert!(orientation(at(0.0, 0.0), at(0.0, tiny), at(tiny, 0.0)) < 0.0);
+        // Small beside large: one factor does for both here, and not over the whole range.
+        assert!(orientation(at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1e-200)) > 0.0);
+        assert!(orientation(at(0.0, 0.0), at(1.0, 0.0), at(1.0, tiny)) >= 0.0);
     }
 }

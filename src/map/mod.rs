@@ -18,7 +18,7 @@ use num_complex::Complex64;
 
 use crate::backend::{Observer, Phase};
 use crate::constraint::{Fixed, Shape};
-use crate::distortion::{Distortion, Image, mesh_boundary, out_of_order};
+use crate::distortion::{Distortion, Image, Validity, mesh_boundary, out_of_order};
 use crate::input::Input;
 use crate::periodic::PeriodicMap;
 use crate::surface::cut::CutRecord;
@@ -103,6 +103,8 @@ pub struct Mapped {
     pub torus: Option<PeriodicMap>,
     /// Its distortion.
     pub distortion: Distortion,
+    /// Whether it is one-to-one, exactly.
+    pub validity: Validity,
 }
 
 /// Maps `input` to the plane: diagnosis, quad graph, constraints, solution, distortion.
@@ -141,7 +143,8 @@ pub fn run(input: &Input, options: &MapOptions, watch: &mut dyn Observer) -> Res
     if map.on_circle {
         distortion.boundary_out_of_order = Some(out_of_order(&mesh_boundary(&domain.graph, &map.z)));
     }
-    Ok(Mapped { findings, component, cut, domain, map, torus, distortion })
+    let validity = Validity::new(&domain.disc, |c| image.corner(&domain.disc, c));
+    Ok(Mapped { findings, component, cut, domain, map, torus, distortion, validity })
 }
 
 /// Where a map puts corners.

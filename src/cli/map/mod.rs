@@ -3,6 +3,7 @@
 mod arguments;
 mod output;
 mod summary;
+mod validity;
 
 use std::io::Write;
 

@@ -8,13 +8,14 @@ use riemap::experiment::{Checkerboard, checkerboard, flat_map};
 use riemap::figure::Format;
 use riemap::input::Input;
 use riemap::io::{Staged, can_be_written, stage, stage_mesh, writable, write_matrix_market};
-use riemap::map::{Domain, Map, Mapped};
+use riemap::map::{Domain, Map, Mapped, TextureCoordinates};
 use riemap::problem::system;
 use riemap::report::Report;
 use riemap::stopwatch::Traced;
 use riemap::surface::disc::Disc;
 
 use super::arguments::Arguments;
+use super::validity::{faults, of_written};
 
 /// The pictures asked for, each with the file it is for.
 pub(super) fn draw<'a>(
@@ -71,6 +72,7 @@ pub(super) fn write_all(
     let mut staged: Vec<Staged> = Vec::new();
     if let Some(path) = &arguments.output {
         let texture = mapped.texture_coordinates(&input.surface, arguments.tiling);
+        warn_of_written(path, input, mapped, &texture);
         staged.push(stage_mesh(path, &input.surface, input.vertex_text.as_ref(), Some(texture.uv()))?);
     }
     if let Some(path) = &arguments.system {
@@ -91,6 +93,17 @@ pub(super) fn write_all(
         file.publish()?;
     }
     Ok(())
+}
+
+/// Says where the map is one-to-one and what is written of it is not. Texture coordinates of discs are the map's own doubles.
+fn warn_of_written(path: &Path, input: &Input, mapped: &Mapped, texture: &TextureCoordinates) {
+    if mapped.torus.is_none() || !mapped.validity.is_one_to_one() {
+        return;
+    }
+    let written = of_written(&mapped.domain.disc, &input.surface, &texture.of_corners(&input.surface));
+    for fault in faults(&written, &mapped.distortion) {
+        eprintln!("riemap: warning: as written to {}: {fault}", path.display());
+    }
 }
 
 /// What the rows and columns are, and the constraints that make the solution unique.

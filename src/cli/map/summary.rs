@@ -6,11 +6,12 @@ use riemap::backend::Status;
 use riemap::map::{MapOptions, Mapped, Outcome};
 use riemap::report::{EnergyRecord, Report};
 
+use super::validity::faults;
 use crate::cli::plural;
 
 /// Says on the standard error stream where the map is not one-to-one, and what may help.
 pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
-    let Mapped { map, distortion, .. } = mapped;
+    let Mapped { map, distortion, validity, .. } = mapped;
     if options.fix == 2 && options.pins.is_empty() && map.on_circle && map.smallest_singular_value.is_some() {
         eprintln!(
             "riemap: warning: two fixed points leave a circle map (nearly) free to move: the smallest singular value is \
@@ -46,20 +47,12 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         true => "a finer mesh may help".to_owned(),
         false => format!("{} may help", help.join(", or ")),
     };
-    if let Some(first) = distortion.first_flipped {
-        let faces = plural(distortion.flipped, "face is", "faces are");
-        eprintln!("riemap: warning: the map is not one-to-one: {faces} flipped, the first is face {first}; {help}");
-    }
-    if distortion.not_convex > distortion.flipped {
-        let quads = plural(distortion.not_convex - distortion.flipped, "quad is", "quads are");
-        eprintln!("riemap: warning: {quads} positive but not convex in the map; {help}");
+    for fault in faults(validity, distortion) {
+        eprintln!("riemap: warning: {fault}; {help}");
     }
     if let Some(count) = distortion.boundary_out_of_order.filter(|&count| count > 0) {
         let points = plural(count, "boundary point is", "boundary points are");
         eprintln!("riemap: warning: {points} out of order along the circle; {help}");
-    }
-    if distortion.boundary_crosses {
-        eprintln!("riemap: warning: the boundary of the map crosses or touches itself; {help}");
     }
 }
 
@@ -141,6 +134,7 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
         writeln!(out, "area distortion: mean {:.4}, max {:.4}", area.mean, area.max)?;
     }
     let simple = if distortion.boundary_crosses { "crosses itself" } else { "is simple" };
-    writeln!(out, "{} flipped; the boundary {simple}", plural(distortion.flipped, "face", "faces"))?;
+    let one_to_one = if solver.valid { "; one-to-one by the exact check" } else { "" };
+    writeln!(out, "{} flipped; the boundary {simple}{one_to_one}", plural(distortion.flipped, "face", "faces"))?;
     Ok(())
 }
