@@ -256,7 +256,7 @@ impl SolverRecord {
             status: map.outcome.name(),
             valid: validity.is_one_to_one(),
             locally_injective: validity.is_locally_one_to_one(),
-            repaired: false,
+            repaired: map.repaired,
             iterations: map.iterations,
             gradient_norm: map.gradient_norm,
             residual: map.residual,

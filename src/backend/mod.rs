@@ -1,5 +1,6 @@
 //! Interchangeable solvers: direct ones for linear problems, iterative ones for the others.
 
+pub mod convex;
 pub mod linear;
 pub mod nonlinear;
 mod observer;

@@ -2,6 +2,7 @@ use std::io::Write;
 
 use anyhow::Result;
 
+use riemap::backend::convex::EDGE_WEIGHTS;
 use riemap::backend::{LINEAR_BACKENDS, MINIMISERS, reduced};
 use riemap::constraint::Shape;
 use riemap::energy::ENERGIES;
@@ -44,6 +45,12 @@ pub fn run(out: &mut dyn Write) -> Result<()> {
         "dual points of triangle meshes",
         "(--dual)",
         DUAL_POINTS.iter().map(|d| (d.name().to_owned(), d.description().to_owned())),
+    )?;
+    section(
+        out,
+        "weights of convex combination maps",
+        "(--boundary fixed --weights NAME)",
+        EDGE_WEIGHTS.iter().map(|w| (w.name.to_owned(), w.about.to_owned())),
     )?;
     section(
         out,

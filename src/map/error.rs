@@ -1,3 +1,4 @@
+use crate::backend::convex::ConvexError;
 use crate::backend::reduced::Unreduced;
 use crate::backend::{MinimiseError, SolveError};
 use crate::constraint::ConstraintError;
@@ -138,6 +139,19 @@ pub enum MapError {
         /// What it became.
         copies: usize,
     },
+    /// Weights beside what they do not go with.
+    #[error(
+        "--weights {name} makes a map with a fixed boundary, in place of an energy and by a solver of its own: {help}"
+    )]
+    WeightsOfNothing {
+        /// The weights.
+        name: String,
+        /// What to do.
+        help: &'static str,
+    },
+    /// No convex combination map.
+    #[error(transparent)]
+    Convex(#[from] ConvexError),
     /// No usable ρ.
     #[error(transparent)]
     QuadGraph(#[from] QuadGraphError),

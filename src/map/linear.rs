@@ -34,6 +34,7 @@ impl MapOptions {
             on_circle: self.fixed_on_circle(),
             anchored: false,
             exactly: None,
+            repaired: false,
         })
     }
 }

@@ -1,5 +1,6 @@
 //! One surface to one map: the pipeline from a disc to its image in the plane.
 
+mod convex;
 mod domain;
 mod error;
 mod linear;
@@ -11,7 +12,7 @@ mod torus;
 
 pub use domain::Domain;
 pub use error::MapError;
-pub use options::{Boundary, Hold, MapOptions, Pin, RhoSource};
+pub use options::{Boundary, Hold, MapOptions, Pin, RhoSource, Valid};
 pub use texture::TextureCoordinates;
 
 use num_complex::Complex64;
@@ -84,6 +85,8 @@ pub struct Map {
     pub anchored: bool,
     /// What was solved for exactly, with H the lowest under it; `None`: the energy's minimum.
     pub exactly: Option<Exactly>,
+    /// Whether it is in the place of a map that was not one-to-one.
+    pub repaired: bool,
 }
 
 /// A surface and its map, with everything in between that a report or a figure needs.
@@ -167,6 +170,9 @@ impl MapOptions {
     /// Options that contradict each other; constraints that do not suffice; a solver that fails or does not converge.
     pub fn map(&self, domain: &Domain, exact: Option<&[[f64; 2]]>, watch: &mut dyn Observer) -> Result<Map, MapError> {
         let expression = self.expression();
+        if let Some(name) = &self.weights {
+            return self.convex(name, domain, watch);
+        }
         if self.keep_order && !expression.has("C") {
             return Err(MapError::NoCircle { energy: expression.to_string() });
         }

@@ -93,6 +93,7 @@ pub(super) fn minimise(
         on_circle: circle || (options.boundary == Boundary::Fixed && options.fixed_on_circle()),
         anchored: anchors.exact,
         exactly: None,
+        repaired: false,
         fixed,
     })
 }

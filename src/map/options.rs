@@ -60,6 +60,19 @@ pub enum Hold {
     Primal,
 }
 
+/// Whether a map that is not one-to-one, by the exact check, is replaced by one that is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Valid {
+    /// A map that passes is left as it is; another is replaced. Not where an energy is given.
+    #[default]
+    Auto,
+    /// The same, and what replaces it has the lowest mean quasi-conformal error, whatever H is.
+    BestQc,
+    /// Never.
+    Off,
+}
+
 /// What is asked of a map; the `[map]` table of an experiment.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
@@ -83,6 +96,10 @@ pub struct MapOptions {
     pub pins: Vec<Pin>,
     /// Which boundary vertices are held by a fixed boundary; by default `whole`, with circumcentres `primal`.
     pub hold: Option<Hold>,
+    /// With a fixed boundary: the vertices inside are means of their neighbours by these weights, in place of the minimum of H.
+    pub weights: Option<String>,
+    /// Whether a map that is not one-to-one is replaced.
+    pub valid: Valid,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper.
     pub fix: usize,
     /// Circle maps: whether the boundary is kept in order.
@@ -119,6 +136,8 @@ impl Default for MapOptions {
             positions: None,
             pins: Vec::new(),
             hold: None,
+            weights: None,
+            valid: Valid::default(),
             fix: 3,
             keep_order: false,
             weight: Weight::default(),

@@ -108,6 +108,7 @@ pub(super) fn attempt(
                 on_circle: true,
                 anchored: anchors.exact,
                 exactly: Some(Exactly::Circle),
+                repaired: false,
             })))
         }
         Kind::Free => {
@@ -148,6 +149,7 @@ pub(super) fn attempt(
                 on_circle: false,
                 anchored: false,
                 exactly: Some(Exactly::Lengths),
+                repaired: false,
             })))
         }
     }

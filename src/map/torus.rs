@@ -45,6 +45,7 @@ impl MapOptions {
             on_circle: false,
             anchored: false,
             exactly: None,
+            repaired: false,
         };
         Ok((map, torus))
     }

@@ -16,6 +16,7 @@ mod system;
 use std::io::Read;
 use std::process::Stdio;
 
+use riemap::backend::convex::EDGE_WEIGHTS;
 use riemap::backend::{LINEAR_BACKENDS, MINIMISERS};
 use riemap::constraint::Shape;
 use riemap::energy::ENERGIES;
@@ -36,6 +37,8 @@ fn wrong_usage_exits_with_2_and_shows_what_is_possible() {
         (&["map", "a.obj", "--shape", "frob"], "circle"),
         (&["map", "a.obj", "--weight", "frob"], "integral"),
         (&["map", "a.obj", "--hold", "frob"], "primal"),
+        (&["map", "a.obj", "--weights", "frob"], "mean-value"),
+        (&["map", "a.obj", "--valid", "frob"], "best-qc"),
         (&["map", "a.obj", "--rho", "frob"], "normals"),
         (&["map", "a.obj", "--boundary", "frob"], "fixed"),
         (&["map", "a.obj", "--boundary", "frob"], "circle"),
@@ -71,7 +74,7 @@ fn every_command_has_help() {
         assert!(shell.done(&["--help"]).contains(command));
         assert!(shell.done(&[command, "--help"]).contains(&format!("riemap {command}")));
     }
-    let options = "--output --boundary --energy --fix --keep-order --tolerance --max-iterations --trace --shape --positions --pin --hold --weight --dual --boundary-dual --rho --solver \
+    let options = "--output --boundary --energy --fix --keep-order --tolerance --max-iterations --trace --shape --positions --pin --hold --weights --valid --weight --dual --boundary-dual --rho --solver \
                    --system --report --picture --texture --quiet";
     let help = shell.done(&["map", "--help"]);
     for option in options.split(' ') {
@@ -84,6 +87,7 @@ fn every_command_has_help() {
 fn list_names_every_row_of_every_table() {
     let list = Shell::new().done(&["list"]);
     let names = LINEAR_BACKENDS.iter().map(|b| b.name()).chain(MINIMISERS.iter().map(|b| b.name()));
+    let names = names.chain(EDGE_WEIGHTS.iter().map(|w| w.name));
     let names = names.chain(ENERGIES.iter().map(|row| row.name));
     let names = names.chain(DUAL_POINTS.iter().map(|d| d.name())).chain(Shape::ALL.iter().map(|s| s.0));
     for name in names {

@@ -5,12 +5,13 @@ use anyhow::{Result, bail};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
+use riemap::backend::convex::EDGE_WEIGHTS;
 use riemap::backend::solver_names;
 use riemap::constraint::Shape;
 use riemap::energy::Expression;
 use riemap::energy::conformal::Weight;
 use riemap::io::read_positions;
-use riemap::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource};
+use riemap::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource, Valid};
 use riemap::periodic::Tiling;
 use riemap::quad_graph::RestSource;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
@@ -56,6 +57,14 @@ pub struct Arguments {
     /// [default: whole; with circumcentres primal]
     #[arg(long, value_name = "WHICH", value_parser = by_name::<Hold>)]
     pub(super) hold: Option<Hold>,
+    /// With --boundary fixed: every inner vertex the mean of its neighbours by these weights, in place of H's minimum; see
+    /// `riemap list`
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EDGE_WEIGHTS.iter().map(|w| w.name)))]
+    pub(super) weights: Option<String>,
+    /// A circle or free map that is not one-to-one, by the exact check, is replaced by one that is: auto (near H's
+    /// minimum), best-qc (lowest quasi-conformal error), off; off when --energy is given
+    #[arg(long, default_value = "auto", value_parser = by_name::<Valid>)]
+    pub(super) valid: Valid,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper [default: 3]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=3))]
     pub(super) fix: Option<u8>,
@@ -132,6 +141,7 @@ fn refuse_contradictions(arguments: &Arguments, options: &MapOptions) -> Result<
         (arguments.shape.is_some(), "--shape"),
         (arguments.positions.is_some(), "--positions"),
         (arguments.hold.is_some(), "--hold"),
+        (arguments.weights.is_some(), "--weights"),
     ] {
         if given && !fixed {
             bail!("{name} says where a fixed boundary is held: use it with --boundary fixed");
@@ -232,6 +242,8 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
         positions,
         pins: arguments.pin.clone(),
         hold: arguments.hold,
+        weights: arguments.weights.clone(),
+        valid: arguments.valid,
         weight: arguments.weight,
         dual: arguments.dual.clone(),
         boundary_dual: arguments.boundary_dual,
