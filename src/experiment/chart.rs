@@ -3,8 +3,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::Record;
 use super::summary::number;
+use super::{FitSpec, Fitted, Record};
 use crate::figure::{Axis, Plot, Reference, Series};
 
 /// `[plots.NAME]`: a plot over the runs of an experiment.
@@ -20,7 +20,7 @@ pub struct PlotSpec {
     pub y: AxisSpec,
     /// What is drawn.
     pub series: Vec<SeriesSpec>,
-    /// Runs whose value at a dotted key is another are left out.
+    /// Runs whose value at a dotted key is another are left out; of a list, any will do.
     #[serde(default)]
     pub only: BTreeMap<String, Value>,
     /// Dashed lines to compare slopes with.
@@ -51,6 +51,8 @@ pub struct SeriesSpec {
     pub by: Option<String>,
     /// Name in the legend; `{}` stands for the value of `by`.
     pub label: String,
+    /// The exponent that is fitted to it; both axes must be logarithmic.
+    pub fit: Option<FitSpec>,
 }
 
 /// A dashed line.
@@ -72,19 +74,56 @@ impl PlotSpec {
         self.x.key.iter().chain(series).chain(self.only.keys())
     }
 
+    /// Whether it shows times, which differ from run to run.
+    pub fn is_of_timings(&self) -> bool {
+        self.keys().any(|key| key.starts_with("timings."))
+    }
+
+    /// Why a plot of this name cannot be as it says.
+    pub(super) fn contradiction(&self, name: &str) -> Option<&'static str> {
+        if self.series.iter().any(|series| series.fit.is_some()) && !(self.x.log && self.y.log) {
+            return Some("`fit` is the exponent of a power law and needs both axes logarithmic (log = true)");
+        }
+        // The names of files that are not kept with the results.
+        if self.is_of_timings() && name != "timings" && !name.ends_with("-timings") {
+            return Some("it shows times, which differ from run to run: its name must end in `-timings`");
+        }
+        None
+    }
+
     /// The plot of `records`. A run whose value is an array is a series of its own points.
     pub fn plot(&self, records: &[Record]) -> Plot {
-        let kept = |r: &&Record| self.only.iter().all(|(key, wanted)| r.get(key).is_some_and(|v| same(&v, wanted)));
-        let kept: Vec<&Record> = records.iter().filter(kept).collect();
         let axis = |spec: &AxisSpec| Axis { label: spec.label.clone(), log: spec.log };
         let reference = |r: &ReferenceSpec| Reference { slope: r.slope, through: r.through, label: r.label.clone() };
         Plot {
             title: self.title.clone(),
             x: axis(&self.x),
             y: axis(&self.y),
-            series: self.series.iter().flat_map(|series| self.series(series, &kept)).collect(),
+            series: self.fitted(records).into_iter().map(|(series, fitted)| named(series, fitted)).collect(),
             references: self.reference.iter().map(reference).collect(),
         }
+    }
+
+    /// The exponents that the plot's series have, with their labels; empty where none is asked for.
+    pub fn fits(&self, records: &[Record]) -> Vec<(String, Option<Fitted>)> {
+        if self.series.iter().all(|series| series.fit.is_none()) {
+            return Vec::new();
+        }
+        self.fitted(records).into_iter().map(|(series, fitted)| (series.label, fitted)).collect()
+    }
+
+    /// The series without their exponents in the label, and these.
+    fn fitted(&self, records: &[Record]) -> Vec<(Series, Option<Fitted>)> {
+        let kept = |r: &&Record| self.only.iter().all(|(key, wanted)| r.get(key).is_some_and(|v| matches(&v, wanted)));
+        let kept: Vec<&Record> = records.iter().filter(kept).collect();
+        let mut fitted = Vec::new();
+        for spec in &self.series {
+            for series in self.series(spec, &kept) {
+                let fit = spec.fit.and_then(|fit| fit.fit(&series.points));
+                fitted.push((series, fit));
+            }
+        }
+        fitted
     }
 
     fn series(&self, spec: &SeriesSpec, records: &[&Record]) -> Vec<Series> {
@@ -107,8 +146,23 @@ impl PlotSpec {
     }
 }
 
+fn named(series: Series, fitted: Option<Fitted>) -> Series {
+    match fitted {
+        Some(fitted) => Series { label: format!("{}, {fitted}", series.label), ..series },
+        None => series,
+    }
+}
+
 fn point((x, y): (&Value, &Value)) -> Option<[f64; 2]> {
     Some([x.as_f64()?, y.as_f64()?])
+}
+
+/// Whether `value` is the wanted one, or one of a list of these.
+fn matches(value: &Value, wanted: &Value) -> bool {
+    match wanted {
+        Value::Array(any) => any.iter().any(|wanted| same(value, wanted)),
+        _ => same(value, wanted),
+    }
 }
 
 /// 33 and 33.0 are the same.

@@ -106,6 +106,11 @@ impl Config {
             columns,
             plots: document.optional("plots")?.unwrap_or_default(),
         };
+        for (name, plot) in &config.plots {
+            if let Some(reason) = plot.contradiction(name) {
+                return Err(document.wrong_plot(name, reason));
+            }
+        }
         for key in ["sweep", "table", "plots"] {
             document.remove(key);
         }

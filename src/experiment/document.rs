@@ -146,6 +146,12 @@ impl<'a> Document<'a> {
         Err(ConfigError::UnknownKey { place, key: key.get_ref().to_string(), known: known.join(", ") })
     }
 
+    /// The error of the plot of that name.
+    pub(super) fn wrong_plot(&self, name: &str, reason: &'static str) -> ConfigError {
+        let plot = self.root.get_ref().get("plots").and_then(|plots| plots.get_ref().as_table()?.get(name));
+        ConfigError::Plot { place: self.sources.place(plot.map_or(0..0, Spanned::span)), plot: name.to_owned(), reason }
+    }
+
     /// The swept keys in the order of the file, each with its values.
     pub(super) fn sweep(&self) -> Result<Vec<Axis<'a>>, ConfigError> {
         let Some(sweep) = self.root.get_ref().get("sweep") else { return Ok(Vec::new()) };

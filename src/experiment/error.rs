@@ -86,6 +86,16 @@ pub enum ConfigError {
         /// The names there are.
         known: String,
     },
+    /// A plot that contradicts itself.
+    #[error("{place}: plot `{plot}`: {reason}\n{}", place.excerpt())]
+    Plot {
+        /// Where.
+        place: Box<Place>,
+        /// Its name.
+        plot: String,
+        /// How.
+        reason: &'static str,
+    },
     /// A table that the kind needs.
     #[error("{source_name}: the table [{table}] is missing or incomplete: {message}")]
     Missing {

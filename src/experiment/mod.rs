@@ -12,6 +12,7 @@
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
 //! | `run.rs` | runs → records in a folder |
 //! | `summary.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
+//! | `fit.rs` | exponents fitted to the series of plots |
 //! | `map.rs`, `cotan.rs`, `normals.rs` | the kinds of experiment, rows of [`KINDS`] |
 //! | `picture.rs` | maps → their pictures: flat, or as a checkerboard on the surface |
 //! | `repository.rs` | where experiments and results lie; the revision of the program |
@@ -24,6 +25,7 @@ mod cotan;
 mod document;
 mod error;
 mod expect;
+mod fit;
 mod map;
 mod normals;
 mod picture;
@@ -41,6 +43,7 @@ pub use config::{Column, Config, Run, Shard};
 pub use document::Document;
 pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::Bound;
+pub use fit::{Abscissa, FitSpec, Fitted};
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};
 pub use repository::{find_experiments, revision};

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::run::{make, write_figure};
-use super::{Config, Outcome, Record, ResultsError};
+use super::{Config, Outcome, Record, ResultsError, fit};
 use crate::figure::Format;
 use crate::io::atomically;
 
@@ -69,7 +69,7 @@ fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
     Ok(())
 }
 
-/// The records as Markdown; `timings`: the columns that differ from run to run instead of the others. `None` if there are
+/// The records as Markdown, and the exponents fitted to the series of plots; `timings`: the columns that differ from run to run instead of the others. `None` if there are
 /// none of these.
 pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<String> {
     let is_timing = |key: &str| key.starts_with("timings.");
@@ -108,6 +108,7 @@ pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<Strin
         let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|").replace('\n', " ")).collect();
         let _ = writeln!(text, "| {} |", cells.join(" | "));
     }
+    text.push_str(&fit::table(config, records, timings));
     Some(text)
 }
 
