@@ -23,7 +23,7 @@ fn paths_that_are_no_mesh_files_are_told_so() {
     let message = io::read(&at("mesh.fbx")).unwrap_err().to_string();
     assert!(message.ends_with("unknown mesh format; known extensions: .obj, .off, .ply, .stl"), "{message}");
     let error = io::write(&at("out.stl"), &square(), None, None).unwrap_err().to_string();
-    assert!(error.ends_with("known extensions: .obj, .ply"), "{error}");
+    assert!(error.ends_with("known extensions: .obj, .ply, .glb"), "{error}");
 }
 
 #[test]

@@ -15,6 +15,7 @@
 //! | `fit.rs` | exponents fitted to the series of plots |
 //! | `map.rs`, `cotan.rs`, `normals.rs` | the kinds of experiment, rows of [`KINDS`] |
 //! | `picture.rs` | maps → their pictures: flat, or as a checkerboard on the surface |
+//! | `model.rs` | maps → the surface under its checkerboard, to be turned around in a viewer |
 //! | `repository.rs` | where experiments and results lie; the revision of the program |
 //!
 //! Everything but `timings` and `versions` of a record is the same on every run of the same program, bit for bit.
@@ -27,6 +28,7 @@ mod error;
 mod expect;
 mod fit;
 mod map;
+mod model;
 mod normals;
 mod picture;
 mod record;
@@ -44,6 +46,7 @@ pub use document::Document;
 pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::Bound;
 pub use fit::{Abscissa, FitSpec, Fitted};
+pub use model::{ModelError, stage_model};
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};
 pub use repository::{find_experiments, revision};

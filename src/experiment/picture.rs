@@ -55,7 +55,7 @@ pub enum Up {
 }
 
 impl Up {
-    fn axis(self, source: &str) -> [f64; 3] {
+    pub(super) fn axis(self, source: &str) -> [f64; 3] {
         // A mesh is known by its extension.
         let extension = Path::new(source).extension().map(|e| e.to_ascii_lowercase());
         let mesh = ["obj", "off", "ply", "stl", "glb"].iter().any(|e| extension.as_deref() == Some(e.as_ref()));
@@ -106,22 +106,22 @@ pub fn checkerboard_pair(
 
 /// What the picture of a surface is made from, beside its positions in the source. Vertices are those of the source, so
 /// that no cut parts the light.
-struct ViewParts {
-    faces: Faces,
+pub(super) struct ViewParts {
+    pub(super) faces: Faces,
     uv: Vec<[f64; 2]>,
     flipped: Vec<usize>,
     cut: Vec<[u32; 2]>,
 }
 
 impl ViewParts {
-    fn of(mapped: &Mapped, maps: &[FaceMap], squares: usize) -> Result<ViewParts, FigureError> {
+    pub(super) fn of(mapped: &Mapped, maps: &[FaceMap], squares: usize) -> Result<ViewParts, FigureError> {
         let disc = &mapped.domain.disc;
         let faces: Faces = disc.faces.renumbered(&disc.source_vertex).iter().take(disc.source_faces()).collect();
         let uv = texture(mapped, squares)?;
         Ok(ViewParts { faces, uv, flipped: flipped(maps), cut: cut(disc) })
     }
 
-    fn figure<'a>(&'a self, input: &'a Input, mapped: &'a Mapped, look: Checkerboard) -> SurfaceView<'a> {
+    pub(super) fn figure<'a>(&'a self, input: &'a Input, mapped: &'a Mapped, look: Checkerboard) -> SurfaceView<'a> {
         let planes = mapped.domain.planes.as_ref();
         SurfaceView {
             shading: planes.map_or(Shading::Smooth, |planes| Shading::Normals(&planes.normals[..self.faces.len()])),
@@ -165,7 +165,7 @@ fn texture(mapped: &Mapped, squares: usize) -> Result<Vec<[f64; 2]>, FigureError
     })
 }
 
-fn maps(mapped: &Mapped) -> Vec<FaceMap> {
+pub(super) fn maps(mapped: &Mapped) -> Vec<FaceMap> {
     face_maps(&mapped.domain.disc, &mapped.domain.graph, &mapped.image())
 }
 

@@ -1,10 +1,11 @@
-//! Mesh files: OBJ, OFF, PLY and STL in, OBJ and PLY with texture coordinates out. Volumes: DGtal, PGM3D, NumPy, raw.
+//! Mesh files: OBJ, OFF, PLY and STL in, OBJ, PLY and binary glTF with texture coordinates out. Volumes: DGtal, PGM3D, NumPy, raw.
 //!
 //! Readers take the whole file as bytes and check every number and index; what they accept fulfils what
 //! [`Surface`] promises, and nothing is repaired. Errors name the line (or the byte) and what stands there.
 
 mod atomic;
 mod error;
+pub mod glb;
 mod matrix_market;
 mod mesh;
 mod obj;
@@ -28,7 +29,7 @@ pub use matrix_market::write_matrix_market;
 pub use mesh::VertexText;
 pub use positions::{Places, PositionsError, read_positions};
 pub use volume::{Sample, VolumeError, VolumeFormat, VolumeOptions, is_volume, parse_volume, read_volume, write_vol};
-pub use write::{Uv, WriteError, stage_mesh, writable, write};
+pub use write::{Uv, WriteError, is_glb, stage_glb, stage_mesh, writable, write};
 
 use error::Fault;
 use mesh::Parsed;

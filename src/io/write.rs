@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::glb::{Affine, Glb, GlbError, Model};
 use super::{Staged, VertexText, can_be_written, stage};
 use crate::surface::Surface;
 
@@ -32,7 +33,7 @@ pub enum WriteError {
         source: io::Error,
     },
     /// The extension is that of no format that is written.
-    #[error("cannot write {}: unknown mesh format; known extensions: .obj, .ply", path.display())]
+    #[error("cannot write {}: unknown mesh format; known extensions: .obj, .ply, .glb", path.display())]
     UnknownFormat {
         /// The file asked for.
         path: PathBuf,
@@ -71,12 +72,23 @@ pub enum WriteError {
         /// The pair.
         value: [f64; 2],
     },
+    /// What binary glTF has no place for.
+    #[error("cannot write {}: {source}", path.display())]
+    Glb {
+        /// The file asked for.
+        path: PathBuf,
+        /// What it is.
+        source: GlbError,
+    },
 }
 
-/// Writes a surface with its texture coordinates, if any: `.obj` or (binary little-endian) `.ply`, as the extension says.
+/// Writes a surface with its texture coordinates, if any: `.obj`, (binary little-endian) `.ply` or `.glb`, as the extension says.
 ///
 /// Vertices and faces keep their order and number of corners. In OBJ the vertices are the lines of `text` when given; every
 /// other number is the shortest that reads back as the same double. PLY has doubles.
+///
+/// Binary glTF has triangles and single precision, see [`glb`](super::glb). The picture is left to the reader, and (u, v) become
+/// (u, 1 − v) as its axes have it; [`stage_glb`] writes it with a picture and normals.
 ///
 /// # Errors
 ///
@@ -98,7 +110,31 @@ pub fn stage_mesh(
 ) -> Result<Staged, WriteError> {
     let writer = writer(path)?;
     check(path, surface, text, uv)?;
-    stage(path, |out| writer(out, surface, text, uv))
+    match writer {
+        Writer::Plain(writer) => stage(path, |out| writer(out, surface, text, uv)),
+        Writer::Glb => {
+            let corner = |pairs: &[[f64; 2]], of: &[u32]| of.iter().map(|&k| pairs[k as usize]).collect::<Vec<_>>();
+            let map = uv.map(|uv| match uv {
+                Uv::PerVertex(coordinates) => corner(coordinates, surface.faces.corners()),
+                Uv::PerCorner { coordinates, corners } => corner(coordinates, corners),
+            });
+            let (positions, faces) = (&surface.positions, &surface.faces);
+            let texture = Affine::UPRIGHT;
+            let model =
+                Model { positions, faces, z_up: false, normals: None, map: map.as_deref(), texture, picture: None };
+            stage_glb(path, &model)
+        }
+    }
+}
+
+/// Writes binary glTF with all that a viewer can be told, not yet in its place.
+///
+/// # Errors
+///
+/// [`WriteError::Glb`], [`WriteError::Io`].
+pub fn stage_glb(path: &Path, model: &Model) -> Result<Staged, WriteError> {
+    let glb = Glb::new(model).map_err(|source| WriteError::Glb { path: path.to_owned(), source })?;
+    stage(path, |out| glb.write(out))
 }
 
 /// Whether a mesh can be written under this name, so that a long computation need not end in an error.
@@ -114,13 +150,24 @@ pub fn writable(path: &Path) -> Result<(), WriteError> {
 fn writer(path: &Path) -> Result<Writer, WriteError> {
     let is = |known: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known));
     match () {
-        () if is("obj") => Ok(obj),
-        () if is("ply") => Ok(ply),
+        () if is("obj") => Ok(Writer::Plain(obj)),
+        () if is("ply") => Ok(Writer::Plain(ply)),
+        () if is_glb(path) => Ok(Writer::Glb),
         () => Err(WriteError::UnknownFormat { path: path.to_owned() }),
     }
 }
 
-type Writer = fn(&mut dyn Write, &Surface, Option<&VertexText>, Option<Uv>) -> io::Result<()>;
+/// Whether the extension is that of binary glTF.
+pub fn is_glb(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("glb"))
+}
+
+type Plain = fn(&mut dyn Write, &Surface, Option<&VertexText>, Option<Uv>) -> io::Result<()>;
+
+enum Writer {
+    Plain(Plain),
+    Glb,
+}
 
 fn check(path: &Path, surface: &Surface, text: Option<&VertexText>, uv: Option<Uv>) -> Result<(), WriteError> {
     let path = || path.to_owned();

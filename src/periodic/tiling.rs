@@ -2,6 +2,8 @@
 
 use num_complex::Complex64;
 
+use crate::io::glb::Affine;
+
 /// Which texture coordinates a periodic map is written with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -27,6 +29,13 @@ impl Texture {
     /// N (a, b)ᵀ
     pub fn place(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         self.matrix.map(|[p, q]| p as f64 * a + q as f64 * b)
+    }
+
+    /// z = a + bτ ↦ N (a, b)ᵀ, on the coordinates of the plane.
+    pub fn affine(&self, tau: Complex64) -> Affine {
+        // (a, b) = (Re z − Re τ / Im τ · Im z, Im z / Im τ)
+        let matrix = self.matrix.map(|[p, q]| [p as f64, (q as f64 - p as f64 * tau.re) / tau.im]);
+        Affine { matrix, origin: [0.0; 2] }
     }
 
     /// The colour of the checkerboard of unit squares at a + bτ: whether the integer parts of N (a, b)ᵀ have an odd sum.

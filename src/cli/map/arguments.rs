@@ -10,7 +10,7 @@ use riemap::backend::solver_names;
 use riemap::constraint::Shape;
 use riemap::energy::Expression;
 use riemap::energy::conformal::Weight;
-use riemap::io::read_positions;
+use riemap::io::{is_glb, read_positions};
 use riemap::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource, Valid};
 use riemap::periodic::Tiling;
 use riemap::quad_graph::RestSource;
@@ -25,7 +25,7 @@ use crate::cli::source::Source;
 pub struct Arguments {
     #[command(flatten)]
     pub(super) source: Source,
-    /// Write the mesh with the map as texture coordinates (.obj, .ply)
+    /// Write the mesh with the map as texture coordinates (.obj, .ply; .glb: to be looked at, with a checkerboard on it)
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
     /// What the boundary does. circle: H + C; free: H + L', its lengths kept; fixed: H, boundary held on --shape;
@@ -196,6 +196,10 @@ pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped
         (
             arguments.tiling != Tiling::default() && mapped.torus.is_none(),
             "--tiling has no effect: the map has no periods",
+        ),
+        (
+            arguments.tiling != Tiling::default() && arguments.output.as_deref().is_some_and(is_glb),
+            "--tiling has no effect on .glb: its checkerboard has the periods already",
         ),
     ];
     idle.into_iter().filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()

@@ -4,10 +4,10 @@ use std::path::Path;
 use anyhow::{Result, bail};
 
 use riemap::backend::Iteration;
-use riemap::experiment::{Checkerboard, checkerboard, flat_map};
+use riemap::experiment::{Checkerboard, checkerboard, flat_map, stage_model};
 use riemap::figure::Format;
 use riemap::input::Input;
-use riemap::io::{Staged, can_be_written, stage, stage_mesh, writable, write_matrix_market};
+use riemap::io::{Staged, can_be_written, is_glb, stage, stage_mesh, writable, write_matrix_market};
 use riemap::map::{Domain, Map, Mapped, TextureCoordinates};
 use riemap::problem::system;
 use riemap::report::Report;
@@ -70,7 +70,9 @@ pub(super) fn write_all(
 ) -> Result<()> {
     let Mapped { domain: Domain { disc, graph, .. }, map, .. } = mapped;
     let mut staged: Vec<Staged> = Vec::new();
-    if let Some(path) = &arguments.output {
+    if let Some(path) = arguments.output.as_ref().filter(|path| is_glb(path)) {
+        staged.push(stage_model(path, input, mapped, Checkerboard::default())?);
+    } else if let Some(path) = &arguments.output {
         let texture = mapped.texture_coordinates(&input.surface, arguments.tiling);
         warn_of_written(path, input, mapped, &texture);
         staged.push(stage_mesh(path, &input.surface, input.vertex_text.as_ref(), Some(texture.uv()))?);

@@ -1,4 +1,13 @@
 use super::super::FigureError;
+use super::super::colour::Colour;
+use super::super::raster::{blank_sheet, encode_png};
+use crate::io::glb::Affine;
+
+/// The checkerboard's light squares, dark squares.
+pub(super) const SQUARES: [Colour; 2] = [Colour([250, 243, 224]), Colour([74, 112, 172])];
+
+/// Pixels along a square of [`Checker::tile`]: where a viewer blurs its border, that is a fraction of a percent.
+const TILE: usize = 256;
 
 /// The plane measured in squares: (u, v) = (z − o) / side, a square being light where ⌊u⌋ + ⌊v⌋ is even.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,4 +39,29 @@ impl Checker {
     pub fn at(&self, z: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| (z[k] - self.origin[k]) * self.per_unit)
     }
+
+    /// [`Checker::at`] as a matrix and a translation.
+    pub fn affine(&self) -> Affine {
+        let k = self.per_unit;
+        Affine { matrix: [[k, 0.0], [0.0, k]], origin: self.origin.map(|o| -o * k) }
+    }
+
+    /// Two by two squares as a PNG file: what repeats.
+    ///
+    /// # Errors
+    /// The encoder's.
+    pub fn tile() -> Result<Vec<u8>, FigureError> {
+        let side = 2 * TILE;
+        let mut tile = blank_sheet(side as u32, side as u32)?;
+        for (i, pixel) in tile.data_mut().chunks_exact_mut(4).enumerate() {
+            // Rows go down, squares up.
+            let (column, row) = (i % side / TILE, 1 - i / side / TILE);
+            let Colour(colour) = SQUARES[(column + row) % 2];
+            pixel[..3].copy_from_slice(&colour);
+        }
+        encode_png(&tile, 1)
+    }
+
+    /// From squares to texture coordinates under which [`Checker::tile`] has its squares: (u/2, 1 − v/2).
+    pub const TO_TILE: Affine = Affine { matrix: [[0.5, 0.0], [0.0, -0.5]], origin: [0.0, 1.0] };
 }

@@ -95,6 +95,11 @@ impl<'a> SurfaceView<'a> {
         }
     }
 
+    /// A unit vector at every corner, face after face, by the shading; 0 where a face has none.
+    pub fn corner_normals(&self) -> Vec<[f64; 3]> {
+        corner_normals(self)
+    }
+
     /// The picture as the bytes of a PNG file, at most `size` pixels large: cut to what there is to see.
     ///
     /// # Errors

@@ -1,11 +1,10 @@
 use super::super::colour::Colour;
 use super::super::style;
 use super::SurfaceView;
+use super::checker::SQUARES;
 use super::scene::{EMPTY, FIRST_LINE, Scene, Triangle};
 use crate::surface::vector::{add, dot, norm, scale};
 
-/// The checkerboard's light squares, dark squares.
-const SQUARES: [Colour; 2] = [Colour([250, 243, 224]), Colour([74, 112, 172])];
 /// What the colour is multiplied by on the inner side of an open surface.
 const INNER: [f64; 3] = [0.50, 0.42, 0.36];
 /// Lines in the order of their styles.

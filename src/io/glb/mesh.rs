@@ -1,0 +1,138 @@
+use std::io::{self, Write};
+use std::ops::RangeInclusive;
+
+use super::{GlbError, Model};
+use crate::surface::Faces;
+use crate::surface::vector::{dot, sub};
+
+/// Sizes whose squares, and those of a millionth of them, are floats of 32 bits: viewers compute with these.
+const SIZES: RangeInclusive<f64> = 1e-15..=1e15;
+
+/// Vertices as glTF has them: one for every position, normal and texture coordinate that meet at some corner, those of one
+/// vertex of the source behind each other, in its order.
+pub(super) struct Mesh {
+    pub(super) centre: [f64; 3],
+    /// From the centre.
+    pub(super) positions: Vec<[f32; 3]>,
+    pub(super) normals: Vec<[f32; 3]>,
+    pub(super) texture: Vec<[f32; 2]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    pub(super) fn new(model: &Model) -> Result<Mesh, GlbError> {
+        if model.faces.is_empty() {
+            return Err(GlbError::NoFaces);
+        }
+        let vertex = model.faces.corners();
+        let place = |c: usize| model.positions[vertex[c] as usize];
+        let (centre, size) = centre(vertex.iter().map(|&v| model.positions[v as usize]));
+        if !SIZES.contains(&size) {
+            return Err(GlbError::Size { size });
+        }
+        let normal = |c: usize| model.normals.map(|normals| unit(normals[c]));
+        let texture = |c: usize| model.map.map(|map| model.texture.at(map[c]).map(|x| x as f32));
+        let (representative, of_corner) = merged(model, |c| (normal(c), texture(c)));
+        let corners = || representative.iter().map(|&c| c as usize);
+        Ok(Mesh {
+            centre,
+            positions: corners().map(|c| sub(place(c), centre).map(|x| x as f32)).collect(),
+            normals: corners().filter_map(normal).collect(),
+            texture: corners().filter_map(texture).collect(),
+            triangles: triangles(model).map(|corners| corners.map(|c| of_corner[c])).collect(),
+        })
+    }
+
+    /// Length of what [`Mesh::write`] writes.
+    pub(super) fn bytes(&self) -> u64 {
+        let words = 3 * (self.positions.len() + self.normals.len() + self.triangles.len()) + 2 * self.texture.len();
+        4 * words as u64
+    }
+
+    /// Lowest and highest position along each axis.
+    pub(super) fn bounds(&self) -> [[f32; 3]; 2] {
+        let bound = |start: f32, pick: fn(f32, f32) -> f32| {
+            self.positions.iter().fold([start; 3], |m, p| [0, 1, 2].map(|k| pick(m[k], p[k])))
+        };
+        [bound(f32::INFINITY, f32::min), bound(f32::NEG_INFINITY, f32::max)]
+    }
+
+    /// Positions, normals, texture coordinates, indices, without gaps.
+    pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut floats = |floats: &[f32]| floats.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()));
+        self.positions.iter().try_for_each(|p| floats(p))?;
+        self.normals.iter().try_for_each(|n| floats(n))?;
+        self.texture.iter().try_for_each(|t| floats(t))?;
+        self.triangles.iter().flatten().try_for_each(|i| out.write_all(&i.to_le_bytes()))
+    }
+}
+
+/// The middle of the box around points and its longest side.
+fn centre(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], f64) {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for p in points {
+        low = [0, 1, 2].map(|k| low[k].min(p[k]));
+        high = [0, 1, 2].map(|k| high[k].max(p[k]));
+    }
+    let size = (0..3).fold(0.0, |size: f64, k| size.max(high[k] - low[k]));
+    // Halved first: the sum may be beyond all doubles.
+    ([0, 1, 2].map(|k| low[k] / 2.0 + high[k] / 2.0), size)
+}
+
+/// In single precision. glTF has no normals of length 0, which faces without area have: the third axis then.
+fn unit(normal: [f64; 3]) -> [f32; 3] {
+    let length = dot(normal, normal).sqrt();
+    if length > 0.0 { normal.map(|x| (x / length) as f32) } else { [0.0, 0.0, 1.0] }
+}
+
+/// Corners of one vertex with the same attributes made one: a corner of each of these, and which one each corner is.
+fn merged<A: PartialEq>(model: &Model, attributes: impl Fn(usize) -> A) -> (Vec<u32>, Vec<u32>) {
+    let vertex = model.faces.corners();
+    // The corners by vertex: a counting sort.
+    let mut first = vec![0u32; model.positions.len() + 1];
+    vertex.iter().for_each(|&v| first[v as usize + 1] += 1);
+    for v in 0..model.positions.len() {
+        first[v + 1] += first[v];
+    }
+    let mut cursor = first.clone();
+    let mut sorted = vec![0u32; vertex.len()];
+    for (c, &v) in vertex.iter().enumerate() {
+        sorted[cursor[v as usize] as usize] = c as u32;
+        cursor[v as usize] += 1;
+    }
+    let (mut representative, mut of_corner) = (Vec::with_capacity(model.positions.len()), vec![0; vertex.len()]);
+    for range in first.windows(2) {
+        let start = representative.len();
+        for &c in &sorted[range[0] as usize..range[1] as usize] {
+            let own = attributes(c as usize);
+            let known = representative[start..].iter().position(|&other: &u32| attributes(other as usize) == own);
+            let merged = start + known.unwrap_or(representative.len() - start);
+            if known.is_none() {
+                representative.push(c);
+            }
+            of_corner[c as usize] = merged as u32;
+        }
+    }
+    (representative, of_corner)
+}
+
+/// The triangles of all faces, as corners.
+fn triangles<'a>(model: &'a Model) -> impl Iterator<Item = [usize; 3]> + 'a {
+    let Model { faces, positions, .. } = *model;
+    (0..faces.len()).flat_map(move |f| {
+        let first = faces.corner_range(f).start;
+        let apex = apex(faces, positions, f);
+        let n = faces.get(f).len();
+        (1..n.saturating_sub(1)).map(move |k| [0, k, k + 1].map(|k| first + (apex + k) % n))
+    })
+}
+
+/// The corner, from 0, from which the triangles of a face fan out: of quads the first end of the shorter diagonal.
+fn apex(faces: &Faces, positions: &[[f64; 3]], f: usize) -> usize {
+    let &[a, b, c, d] = faces.get(f) else { return 0 };
+    let length = |v: u32, w: u32| {
+        let d = sub(positions[w as usize], positions[v as usize]);
+        dot(d, d)
+    };
+    usize::from(length(b, d) < length(a, c))
+}
