@@ -4,9 +4,10 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use riemap::experiment::{self, Config, Outcome, Record, Shard, table};
+use riemap::experiment::{self, Batch, Config, Event, Outcome, Record, Shard, table};
 use riemap::figure::{Axis, FigureError, Format, Plot, Reference, Series};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -32,7 +33,16 @@ fn names(config: &Config) -> Vec<&str> {
 }
 
 fn run(config: &Config, shard: Shard, results: &Path) -> Vec<Record> {
-    experiment::run(config, shard, results, |_| {}).unwrap()
+    let configs = std::slice::from_ref(config);
+    let mut records = Vec::new();
+    Batch { configs, shard, results, threads: NonZeroUsize::MIN }
+        .run(&|| false, &mut |event| {
+            if let Event::Ended { record, .. } = event {
+                records.push(record.clone());
+            }
+        })
+        .unwrap();
+    records
 }
 
 #[track_caller]
@@ -210,6 +220,7 @@ fn clone() -> &'static Path {
 fn experiments() -> Vec<Config> {
     let folder = clone().join("experiments");
     let mut paths: Vec<PathBuf> = folder.read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     paths.sort();
     paths.iter().map(|path| Config::load(path, &[]).unwrap_or_else(|error| panic!("{error}"))).collect()
 }

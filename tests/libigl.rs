@@ -8,6 +8,7 @@
 use std::path::{Path, PathBuf};
 
 use riemap::backend::Silent;
+use riemap::experiment::data_folders;
 use riemap::input::Input;
 use riemap::libigl::Environment;
 use riemap::surface::diagnosis::Diagnosis;
@@ -82,10 +83,7 @@ fn a_map_that_is_not_the_same_is_told_apart() {
 
 /// The folder of public meshes, where there is one.
 fn data() -> Option<PathBuf> {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let named = std::env::var_os("RIEMAP_DATA").filter(|name| !name.is_empty()).map(PathBuf::from);
-    let usual = || [here.join("../shared/data"), here.join("data")].into_iter().find(|folder| folder.is_dir());
-    named.or_else(usual)
+    data_folders(std::env::var_os("RIEMAP_DATA")).into_iter().find(|folder| folder.is_dir())
 }
 
 /// All files of a folder and its folders, sorted.

@@ -32,6 +32,7 @@ fn record(config: Value, result: Value) -> Record {
         outcome: Outcome::Done,
         error: None,
         result,
+        pictures: Vec::new(),
         timings: Value::Null,
         versions: BTreeMap::new(),
     }

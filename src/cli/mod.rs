@@ -1,6 +1,8 @@
 //! One file per command.
 
+mod display;
 mod info;
+mod interrupt;
 mod list;
 mod map;
 mod progress;
@@ -12,6 +14,9 @@ mod verify;
 use std::io::Write;
 
 use clap::{Parser, Subcommand};
+
+pub use interrupt::EXIT_CODE;
+pub use run::Interrupted;
 
 /// Discrete conformal maps of quad meshes, triangle meshes and digital surfaces.
 #[derive(Parser)]

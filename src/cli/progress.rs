@@ -1,12 +1,10 @@
 use std::io::{IsTerminal, Write, stderr};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use riemap::backend::{Iteration, Observer, Phase};
 use riemap::stopwatch::Stopwatch;
 
-/// Set by the first Ctrl-C; the solver then stops with the best map it has.
-static STOP: AtomicBool = AtomicBool::new(false);
+use super::interrupt;
 
 /// A stopwatch that shows the iterations on a terminal, and hears Ctrl-C.
 pub struct Progress {
@@ -18,12 +16,7 @@ pub struct Progress {
 impl Progress {
     /// Shows nothing where `quiet`, or where the standard error stream is no terminal.
     pub fn new(watch: Stopwatch, quiet: bool) -> Self {
-        // A handler cannot be set twice, or not at all on some systems: then Ctrl-C ends the program as ever.
-        let _ = ctrlc::set_handler(|| {
-            if STOP.swap(true, Ordering::SeqCst) {
-                std::process::exit(130);
-            }
-        });
+        interrupt::listen();
         Progress { watch, shown: None, shows: !quiet && stderr().is_terminal() }
     }
 
@@ -55,7 +48,8 @@ impl Observer for Progress {
         self.watch.wants_terms()
     }
 
+    /// The solver then stops with the best map it has.
     fn stop_requested(&self) -> bool {
-        STOP.load(Ordering::SeqCst)
+        interrupt::requested()
     }
 }

@@ -4,15 +4,17 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use riemap::experiment::{Shard, find_experiments};
+use riemap::experiment::find_experiments;
 
-use super::run::run_all;
+use super::run::{Options, absent, load, run_all};
 
 #[derive(Args)]
 pub struct Arguments {
     /// Names of experiments, as in experiments/NAME.toml; without any, all of them
     #[arg(value_name = "NAME")]
     names: Vec<String>,
+    #[command(flatten)]
+    options: Options,
     /// Folder of the results [default: results beside experiments]
     #[arg(long, value_name = "FOLDER")]
     results: Option<PathBuf>,
@@ -33,7 +35,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
         paths.retain(|path| arguments.names.contains(&name(path)));
     }
     let results = arguments.results.clone().unwrap_or_else(|| root.join("results"));
-    run_all(&paths, &[], Shard::ALL, &results, out)
+    let configs = load(&paths, &arguments.options)?;
+    for (config, data) in absent(&configs) {
+        writeln!(out, "{} passed over: {data}", config.name)?;
+    }
+    run_all(&configs, &arguments.options, &results, out)
 }
 
 fn configs(folder: &Path) -> Result<Vec<PathBuf>> {

@@ -1,67 +1,110 @@
+use std::env;
 use std::io::Write;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
 
 use anyhow::{Result, bail};
 use clap::Args;
 
-use riemap::experiment::{self, Config, Outcome, Progress, Shard};
+use riemap::experiment::{Batch, Config, DataFile, Settings, Shard, data_folders};
 
-use super::plural;
+use super::display::Display;
+use super::{interrupt, plural};
 
 #[derive(Args)]
 pub struct Arguments {
     /// Experiments: TOML files
     #[arg(value_name = "CONFIG.toml", required = true)]
     configs: Vec<PathBuf>,
-    /// Set a key of all of them, for example map.dual=incentre; repeatable
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// Run only every n-th run, beginning with the i-th; results of all shards merge
-    #[arg(long, value_name = "I/N", default_value = "1/1")]
-    shard: Shard,
+    #[command(flatten)]
+    options: Options,
     /// Folder of the results
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     results: PathBuf,
 }
 
-pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
-    run_all(&arguments.configs, &arguments.set, arguments.shard, &arguments.results, out)
+/// What `run` and `reproduce` have in common.
+#[derive(Args)]
+pub struct Options {
+    /// Set a key of all of them, for example map.dual=incentre; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Make the long runs of [full], too
+    #[arg(long)]
+    pub full: bool,
+    /// Run only every n-th run, beginning with the i-th; results of all shards merge
+    #[arg(long, value_name = "I/N", default_value = "1/1")]
+    pub shard: Shard,
 }
 
-/// Runs and sums up experiments; all are read before the first is run.
-pub fn run_all(paths: &[PathBuf], sets: &[String], shard: Shard, results: &Path, out: &mut dyn Write) -> Result<()> {
-    let configs: Vec<Config> = paths.iter().map(|path| Config::load(path, sets)).collect::<Result<_, _>>()?;
-    let mut failed = 0;
-    for config in &configs {
-        writeln!(out, "{}: {}", config.path, config.title)?;
-        let mut printed = Ok(());
-        let records = experiment::run(config, shard, results, |progress| {
-            if printed.is_ok() {
-                printed = print(progress, out);
+/// Ctrl-C.
+#[derive(Debug, thiserror::Error)]
+#[error("interrupted: {ended} of {total} runs are done")]
+pub struct Interrupted {
+    ended: usize,
+    total: usize,
+}
+
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
+    let configs = load(&arguments.configs, &arguments.options)?;
+    if let Some((config, data)) = absent(&configs).first() {
+        bail!("{}: {data}", config.path);
+    }
+    run_all(&configs, &arguments.options, &arguments.results, out)
+}
+
+/// Reads experiments, all before the first is run.
+pub fn load(paths: &[PathBuf], options: &Options) -> Result<Vec<Config>> {
+    let data = data_folders(env::var_os("RIEMAP_DATA"));
+    let settings = Settings { sets: options.set.clone(), full: options.full, data };
+    Ok(paths.iter().map(|path| Config::load_with(path, &settings)).collect::<Result<_, _>>()?)
+}
+
+/// The public files that are needed and not there, each once for every config that needs it.
+pub fn absent(configs: &[Config]) -> Vec<(&Config, &DataFile)> {
+    let mut absent = Vec::new();
+    for config in configs {
+        for data in config.runs.iter().filter_map(|run| run.data.as_ref()).filter(|data| data.path.is_none()) {
+            if !absent.iter().any(|&(c, d): &(&Config, &DataFile)| c.path == config.path && d.name == data.name) {
+                absent.push((config, data));
             }
-        })?;
-        printed?;
-        failed += records.iter().filter(|record| record.outcome != Outcome::Done).count();
-        let summary = experiment::summarise(config, results)?;
-        writeln!(out, "  records: {}", results.join(&config.name).display())?;
-        for file in &summary.files {
-            writeln!(out, "  wrote {}", file.display())?;
         }
     }
-    if failed > 0 {
-        bail!("{} without the expected result", plural(failed, "run", "runs"));
-    }
-    Ok(())
+    absent
 }
 
-fn print(progress: Progress, out: &mut dyn Write) -> std::io::Result<()> {
-    let Progress { position, total, record, seconds } = progress;
-    let (outcome, error) = match record.outcome {
-        Outcome::Done => ("done", String::new()),
-        Outcome::Refuted => ("REFUTED", format!(": {}", record.error.as_deref().unwrap_or_default())),
-        Outcome::Failed => ("FAILED", format!(": {}", record.error.as_deref().unwrap_or_default())),
-    };
-    writeln!(out, "  {}/{total}  {}  {seconds:.2} s  {outcome}{error}", position + 1, record.run)?;
-    // Seen at once, also through a pipe.
-    out.flush()
+/// Runs and sums up experiments.
+pub fn run_all(configs: &[Config], options: &Options, results: &Path, out: &mut dyn Write) -> Result<()> {
+    interrupt::listen();
+    let threads = available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    let batch = Batch { configs, shard: options.shard, results, threads };
+    let total = batch.runs().count();
+    let mut display = Display::new(total);
+    let (mut shown, unheard) = (Ok(()), AtomicBool::new(false));
+    let stop = || interrupt::requested() || unheard.load(Ordering::Relaxed);
+    batch.run(&stop, &mut |event| {
+        if shown.is_ok() {
+            shown = display.show(&event, out);
+            unheard.store(shown.is_err(), Ordering::Relaxed);
+        }
+    })?;
+    display.clear();
+    shown?;
+    for complaint in &display.complaints {
+        writeln!(out, "! {complaint}")?;
+    }
+    writeln!(out, "{}", display.summary())?;
+    if interrupt::requested() && display.ended() < total {
+        return Err(Interrupted { ended: display.ended(), total }.into());
+    }
+    let unexpected = display.refuted + display.failed;
+    if unexpected > 0 {
+        bail!("{} without the expected result", plural(unexpected, "run", "runs"));
+    }
+    if !display.complaints.is_empty() {
+        bail!("{} without tables and plots", plural(display.complaints.len(), "experiment", "experiments"));
+    }
+    Ok(())
 }

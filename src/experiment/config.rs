@@ -1,6 +1,5 @@
 use std::collections::{BTreeMap, HashSet};
-use std::path::Path;
-use std::str::FromStr;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -8,14 +7,14 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::document::{Axis, Document, Sources};
-use super::{Bound, ConfigError, KINDS, Kind, PlotSpec, Task};
+use super::{Bound, ConfigError, DataFile, KINDS, Kind, PlotSpec, Shard, Task};
 
 /// More runs than these in one config are taken for a mistake.
 const MOST_RUNS: usize = 10_000;
 /// Longest name of a run's file, without extension.
 const LONGEST_NAME: usize = 100;
 /// The top-level keys of every config.
-const HEAD: [&str; 7] = ["title", "claim", "kind", "sweep", "expect", "table", "plots"];
+const HEAD: [&str; 9] = ["title", "claim", "kind", "alone", "sweep", "full", "expect", "table", "plots"];
 
 /// A column of an experiment's table.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -34,14 +33,29 @@ struct Table {
     columns: Vec<Column>,
 }
 
+/// What is asked of configs from outside.
+#[derive(Clone, Debug, Default)]
+pub struct Settings {
+    /// Texts like `dotted.key=value`. One of a swept key takes the place of the sweep over it.
+    pub sets: Vec<String>,
+    /// Whether the runs that `[full]` adds are to be made.
+    pub full: bool,
+    /// Where the files of `data:` sources are looked for, the first place first.
+    pub data: Vec<PathBuf>,
+}
+
 /// One point of the sweep.
 pub struct Run {
+    /// Its place among all runs of the config, from 0.
+    pub position: usize,
     /// The swept values, as they name the record's file; `run` without a sweep.
     pub name: String,
     /// The config as resolved.
     pub config: Value,
     /// What the claim says of the result, by dotted key.
     pub expect: BTreeMap<String, Bound>,
+    /// The public file that it needs.
+    pub data: Option<DataFile>,
     /// What is to be done.
     pub task: Box<dyn Task>,
 }
@@ -58,8 +72,12 @@ pub struct Config {
     pub claim: String,
     /// What one run does.
     pub kind: &'static dyn Kind,
-    /// The runs: the last swept key varies fastest.
+    /// Whether its runs are timed, so that nothing else may run beside them.
+    pub alone: bool,
+    /// The runs to be made: the last swept key varies fastest.
     pub runs: Vec<Run>,
+    /// Those of `[full]`, where they are not asked for.
+    pub more: Vec<Run>,
     /// The dotted keys that are swept, in the order of the file.
     pub swept: Vec<String>,
     /// Columns of the table, after the swept keys.
@@ -69,20 +87,27 @@ pub struct Config {
 }
 
 impl Config {
-    /// Reads a config and applies settings of the form `dotted.key=value`; a setting of a swept key takes the place of
-    /// the sweep over it.
+    /// Reads a config and applies settings of the form `dotted.key=value`; see [`Config::load_with`].
+    ///
+    /// # Errors
+    /// As [`Config::load_with`].
+    pub fn load(path: &Path, sets: &[String]) -> Result<Self, ConfigError> {
+        Config::load_with(path, &Settings { sets: sets.to_vec(), ..Settings::default() })
+    }
+
+    /// Reads a config with settings from outside.
     ///
     /// # Errors
     /// [`ConfigError`]: whatever in the file or the settings is not understood, with its line.
-    pub fn load(path: &Path, sets: &[String]) -> Result<Self, ConfigError> {
+    pub fn load_with(path: &Path, settings: &Settings) -> Result<Self, ConfigError> {
         let text =
             std::fs::read_to_string(path).map_err(|source| ConfigError::Read { path: path.to_owned(), source })?;
         let name = path.file_stem().and_then(|stem| stem.to_str());
         let name = name.ok_or_else(|| ConfigError::Name { path: path.to_owned() })?;
-        Config::parse(name, Sources::new(&path.display().to_string(), text, sets)?)
+        Config::parse(name, Sources::new(&path.display().to_string(), text, settings)?, settings.full)
     }
 
-    fn parse(name: &str, sources: Sources) -> Result<Self, ConfigError> {
+    fn parse(name: &str, sources: Sources, full: bool) -> Result<Self, ConfigError> {
         let (mut document, set) = sources.tree()?;
         let kind_name = document.optional::<String>("kind")?.unwrap_or_else(|| KINDS[0].name().to_owned());
         let known: Vec<&str> = KINDS.iter().map(|kind| kind.name()).collect();
@@ -94,15 +119,17 @@ impl Config {
             None => kind.columns().iter().map(|(key, label)| Column::new(key, label)).collect(),
         };
         let mut sweep = document.sweep()?;
-        sweep.retain(|(key, _)| !set.contains(key));
+        sweep.retain(|axis| !set.contains(&axis.key));
         let mut config = Config {
             name: name.to_owned(),
             path: document.file().to_owned(),
             title: document.optional("title")?.unwrap_or_else(|| name.to_owned()),
             claim: document.optional("claim")?.unwrap_or_default(),
             kind,
+            alone: document.optional("alone")?.unwrap_or_default(),
             runs: Vec::new(),
-            swept: sweep.iter().map(|(key, _)| key.clone()).collect(),
+            more: Vec::new(),
+            swept: sweep.iter().map(|axis| axis.key.clone()).collect(),
             columns,
             plots: document.optional("plots")?.unwrap_or_default(),
         };
@@ -111,27 +138,35 @@ impl Config {
                 return Err(document.wrong_plot(name, reason));
             }
         }
-        for key in ["sweep", "table", "plots"] {
+        for key in ["alone", "sweep", "full", "table", "plots"] {
             document.remove(key);
         }
-        let runs = sweep.iter().try_fold(1usize, |n, (_, values)| n.checked_mul(values.len()));
+        let runs = sweep.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.values.len()));
         if runs.is_none_or(|runs| runs > MOST_RUNS) {
             return Err(ConfigError::TooManyRuns { source_name: config.path, limit: MOST_RUNS });
         }
         let mut names = HashSet::new();
-        for point in product(&sweep) {
+        for (position, point) in product(&sweep).into_iter().enumerate() {
             let mut document = document.clone();
-            for (key, value) in &point {
+            for (key, value) in &point.values {
                 document.assign(&key.split('.').collect::<Vec<_>>(), (*value).clone())?;
             }
-            config.runs.push(run(kind, document, &config.swept, &mut names)?);
+            let run = run(kind, position, document, &config.swept, &mut names)?;
+            if full || !point.full { config.runs.push(run) } else { config.more.push(run) }
         }
         Ok(config)
     }
 
-    /// The runs of one shard, with their positions among all.
+    /// The runs of one shard, with their positions among those to be made.
     pub fn shard(&self, shard: Shard) -> impl Iterator<Item = (usize, &Run)> {
         self.runs.iter().enumerate().filter(move |(i, _)| i % shard.count == shard.index - 1)
+    }
+
+    /// All runs, to be made or not, in their order.
+    pub fn all_runs(&self) -> Vec<&Run> {
+        let mut runs: Vec<&Run> = self.runs.iter().chain(&self.more).collect();
+        runs.sort_by_key(|run| run.position);
+        runs
     }
 }
 
@@ -143,6 +178,7 @@ impl Column {
 
 fn run(
     kind: &dyn Kind,
+    position: usize,
     mut document: Document,
     swept: &[String],
     names: &mut HashSet<String>,
@@ -156,7 +192,9 @@ fn run(
     let numbered = (2..).map(|i| format!("{base}-{i}"));
     let name = std::iter::once(base.clone()).chain(numbered).find(|name| !names.contains(name)).unwrap_or(base);
     names.insert(name.clone());
-    Ok(Run { name, config, expect, task })
+    let source = config.pointer("/surface/source").and_then(Value::as_str);
+    let data = source.and_then(|source| DataFile::find(source, document.data_folders()));
+    Ok(Run { position, name, config, expect, data, task })
 }
 
 /// `n=33,dual=barycentre`: the last part of each swept key with its value, in characters that every file system takes.
@@ -173,42 +211,26 @@ fn run_name(config: &Value, swept: &[String]) -> String {
     if name.is_empty() { "run".to_owned() } else { name }
 }
 
+/// A choice of one value per axis.
+#[derive(Clone, Default)]
+struct Point<'s, 'a> {
+    values: Vec<(&'s str, &'s Spanned<DeValue<'a>>)>,
+    /// Whether one of the values is of `[full]`.
+    full: bool,
+}
+
 /// Every choice of one value per axis, the last axis fastest.
-fn product<'s, 'a>(axes: &'s [Axis<'a>]) -> Vec<Vec<(&'s str, &'s Spanned<DeValue<'a>>)>> {
-    let mut points = vec![Vec::new()];
-    for (key, values) in axes {
-        let longer = |point: &Vec<_>, value| point.iter().copied().chain([(key.as_str(), value)]).collect();
-        points = points.iter().flat_map(|point| values.iter().map(move |value| longer(point, value))).collect();
+fn product<'s, 'a>(axes: &'s [Axis<'a>]) -> Vec<Point<'s, 'a>> {
+    let mut points = vec![Point::default()];
+    for axis in axes {
+        let longer = |point: &Point<'s, 'a>, (i, value)| {
+            let values = point.values.iter().copied().chain([(axis.key.as_str(), value)]).collect();
+            Point { values, full: point.full || i >= axis.usual }
+        };
+        points = points
+            .iter()
+            .flat_map(|point| axis.values.iter().enumerate().map(move |value| longer(point, value)))
+            .collect();
     }
     points
-}
-
-/// The runs whose position is `index − 1` modulo `count`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    /// From 1 to `count`.
-    pub index: usize,
-    /// At least 1.
-    pub count: usize,
-}
-
-impl Shard {
-    /// All runs.
-    pub const ALL: Shard = Shard { index: 1, count: 1 };
-}
-
-/// Neither `1/3` nor the like.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected i/n with 1 ≤ i ≤ n, for example 1/4")]
-pub struct NoShard;
-
-impl FromStr for Shard {
-    type Err = NoShard;
-
-    fn from_str(text: &str) -> Result<Self, NoShard> {
-        let (index, count) = text.split_once('/').ok_or(NoShard)?;
-        let number = |text: &str| text.parse::<usize>().map_err(|_| NoShard);
-        let shard = Shard { index: number(index)?, count: number(count)? };
-        if (1..=shard.count).contains(&shard.index) { Ok(shard) } else { Err(NoShard) }
-    }
 }

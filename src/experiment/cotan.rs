@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde_json::json;
 
-use super::map::SurfaceSpec;
+use super::surface::SurfaceSpec;
 use super::{ConfigError, Document, Kind, RunError, Task, Yield};
 use crate::libigl::{Environment, Settings};
 use crate::map::{self, Boundary, MapOptions};
@@ -44,7 +44,7 @@ impl Kind for CotanKind {
     }
 
     fn task(&self, config: &Document) -> Result<Box<dyn Task>, ConfigError> {
-        Ok(Box::new(CotanTask { surface: config.table("surface")? }))
+        Ok(Box::new(CotanTask { surface: SurfaceSpec::of(config)? }))
     }
 }
 

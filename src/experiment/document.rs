@@ -1,10 +1,12 @@
 use std::ops::Range;
+use std::path::PathBuf;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
 
+use super::config::Settings;
 use super::error::{ConfigError, Place};
 
 /// The texts that a config is made of: the file, and every `--set`. They are numbered through, so that the span of a
@@ -13,14 +15,16 @@ use super::error::{ConfigError, Place};
 pub(super) struct Sources {
     /// Name, text, and first byte in the common numbering.
     texts: Vec<(String, String, usize)>,
+    /// Where public files are looked for.
+    data: Vec<PathBuf>,
 }
 
 impl Sources {
     /// A file and texts like `key=value`, each made TOML: a value that is none becomes a string.
-    pub(super) fn new(file: &str, text: String, sets: &[String]) -> Result<Self, ConfigError> {
+    pub(super) fn new(file: &str, text: String, settings: &Settings) -> Result<Self, ConfigError> {
         let mut start = text.len() + 1;
         let mut texts = vec![(file.to_owned(), text, 0)];
-        for set in sets {
+        for set in &settings.sets {
             let malformed = || ConfigError::Set { text: set.clone() };
             let (key, value) = set.split_once('=').ok_or_else(malformed)?;
             let bare = format!("{} = {}", key.trim(), value.trim());
@@ -35,7 +39,7 @@ impl Sources {
             texts.push((format!("--set {set}"), padded, start));
             start += text.len() + 1;
         }
-        Ok(Sources { texts })
+        Ok(Sources { texts, data: settings.data.clone() })
     }
 
     /// The file as a tree, with the `--set` values put in, and the dotted keys of these.
@@ -87,8 +91,16 @@ impl Sources {
     }
 }
 
-/// A swept key with its values.
-pub(super) type Axis<'a> = (String, Vec<Spanned<DeValue<'a>>>);
+/// A swept key.
+pub(super) struct Axis<'a> {
+    /// Dotted.
+    pub(super) key: String,
+    /// Those of `[sweep]`, then those of `[full]`.
+    pub(super) values: Vec<Spanned<DeValue<'a>>>,
+    /// How many are of `[sweep]`.
+    pub(super) usual: usize,
+    span: Range<usize>,
+}
 
 /// A config as a tree of TOML values that know where they stand.
 #[derive(Clone, Debug)]
@@ -154,22 +166,43 @@ impl<'a> Document<'a> {
 
     /// The swept keys in the order of the file, each with its values.
     pub(super) fn sweep(&self) -> Result<Vec<Axis<'a>>, ConfigError> {
-        let Some(sweep) = self.root.get_ref().get("sweep") else { return Ok(Vec::new()) };
-        let DeValue::Table(table) = sweep.get_ref() else {
-            let place = self.sources.place(sweep.span());
-            return Err(ConfigError::EmptySweep { place, key: "sweep".to_owned() });
+        let mut axes = self.arrays("sweep")?;
+        for more in self.arrays("full")? {
+            let Some(axis) = axes.iter_mut().find(|axis| axis.key == more.key) else {
+                let known: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
+                let known = if known.is_empty() { "nothing".to_owned() } else { known.join(", ") };
+                return Err(ConfigError::NotSwept { place: self.sources.place(more.span), key: more.key, known });
+            };
+            axis.values.extend(more.values);
+        }
+        Ok(axes)
+    }
+
+    /// The dotted keys of a table of arrays, in the order of the file.
+    fn arrays(&self, name: &str) -> Result<Vec<Axis<'a>>, ConfigError> {
+        let Some(value) = self.root.get_ref().get(name) else { return Ok(Vec::new()) };
+        let DeValue::Table(table) = value.get_ref() else {
+            let place = self.sources.place(value.span());
+            return Err(ConfigError::EmptySweep { place, key: name.to_owned() });
         };
-        let mut axes = leaves(table, &[]);
-        axes.sort_by_key(|(_, value)| value.span().start);
-        let mut swept = Vec::new();
-        for (path, values) in axes {
-            let key = path.join(".");
+        let mut found = leaves(table, &[]);
+        found.sort_by_key(|(_, value)| value.span().start);
+        let mut arrays = Vec::new();
+        for (path, values) in found {
+            let (key, span) = (path.join("."), values.span());
             match values.get_ref().as_array() {
-                Some(array) if !array.is_empty() => swept.push((key, array.to_vec())),
-                _ => return Err(ConfigError::EmptySweep { place: self.sources.place(values.span()), key }),
+                Some(array) if !array.is_empty() => {
+                    arrays.push(Axis { key, values: array.to_vec(), usual: array.len(), span });
+                }
+                _ => return Err(ConfigError::EmptySweep { place: self.sources.place(span), key }),
             }
         }
-        Ok(swept)
+        Ok(arrays)
+    }
+
+    /// Where the files of `data:` sources are looked for.
+    pub fn data_folders(&self) -> &[PathBuf] {
+        &self.sources.data
     }
 
     /// Puts `value` at the dotted key whose parts are `path`, making the tables that lead there.

@@ -1,6 +1,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use super::DataFile;
 use crate::figure::FigureError;
 use crate::input::InputError;
 use crate::io::WriteError;
@@ -124,6 +125,16 @@ pub enum ConfigError {
         /// The dotted key.
         key: String,
     },
+    /// A key of `[full]` that `[sweep]` does not have.
+    #[error("{place}: `{key}` of [full] is not swept; [sweep] has: {known}\n{}", place.excerpt())]
+    NotSwept {
+        /// Where.
+        place: Box<Place>,
+        /// The dotted key.
+        key: String,
+        /// The swept keys.
+        known: String,
+    },
     /// A cartesian product out of hand.
     #[error("{source_name}: the sweep makes more than {limit} runs")]
     TooManyRuns {
@@ -149,6 +160,18 @@ pub enum ConfigError {
 /// A run that ended without a result; its text goes into the record.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
+    /// A public file that is not there.
+    #[error("{file}")]
+    NoData {
+        /// The file.
+        file: DataFile,
+    },
+    /// A mistake of the program.
+    #[error("riemap panicked, which it must never do; please report this: {message}")]
+    Panic {
+        /// What it said.
+        message: String,
+    },
     /// No surface.
     #[error(transparent)]
     Input(#[from] InputError),
@@ -189,6 +212,17 @@ pub enum ResultsError {
         /// The system's word.
         source: std::io::Error,
     },
+    /// A file of former results that does not go away.
+    #[error("{}: the file cannot be removed", path.display())]
+    Remove {
+        /// Its path.
+        path: PathBuf,
+        /// The system's word.
+        source: std::io::Error,
+    },
+    /// No thread to run an experiment on.
+    #[error("no thread can be started")]
+    Thread(#[from] std::io::Error),
     /// No file.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -1,40 +1,18 @@
-use std::collections::BTreeMap;
-
 use serde::Deserialize;
 use serde_json::Value;
 
 use super::picture::{Checkerboard, checkerboard_pair, flat_map};
+use super::surface::SurfaceSpec;
 use super::{ConfigError, Document, Kind, Picture, RunError, Task, Yield};
 use crate::backend::solver_names;
 use crate::figure::Format;
-use crate::input::{Input, InputError, InputOptions};
-use crate::io::Sample;
 use crate::map::{self, MapOptions};
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::report::Report;
 use crate::stopwatch::Stopwatch;
-use crate::surface::digital::Adjacency;
 
 /// One surface, one map; the result is its [`Report`].
 pub(super) struct MapKind;
-
-/// `[surface]`: what is mapped.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SurfaceSpec {
-    /// A mesh file or the name of a generated surface.
-    source: String,
-    /// Parameters of a generated surface beside those in its name, so that they can be swept.
-    #[serde(default)]
-    parameters: BTreeMap<String, Value>,
-    /// Volume files: as in [`InputOptions`].
-    threshold: Option<f64>,
-    size: Option<[usize; 3]>,
-    #[serde(rename = "type")]
-    sample: Option<Sample>,
-    adjacency: Option<Adjacency>,
-    component: Option<usize>,
-}
 
 /// `[solver]`.
 #[derive(Deserialize)]
@@ -102,7 +80,7 @@ impl Kind for MapKind {
         config.check_name("solver.name", "solver", &options.solver, &solver_names())?;
         Ok(Box::new(MapTask {
             title: config.optional("title")?.unwrap_or_default(),
-            surface: config.table("surface")?,
+            surface: SurfaceSpec::of(config)?,
             options,
             figures: config.table("figures")?,
         }))
@@ -137,19 +115,5 @@ impl Task for MapTask {
             pictures.push(Picture { suffix: "-checkerboard", format: Format::Png, bytes });
         }
         Ok(Yield { result, timings: serde_json::to_value(seconds)?, pictures, ..Yield::default() })
-    }
-}
-
-impl SurfaceSpec {
-    /// The surface.
-    pub(super) fn open(&self) -> Result<Input, InputError> {
-        let mut source = self.source.clone();
-        for (name, value) in &self.parameters {
-            source.push(if source.contains('?') { '&' } else { '?' });
-            let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-            source.push_str(&format!("{name}={value}"));
-        }
-        let SurfaceSpec { threshold, size, sample, adjacency, component, .. } = *self;
-        Input::open_with(&source, &InputOptions { threshold, size, sample, adjacency, component })
     }
 }

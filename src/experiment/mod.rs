@@ -20,9 +20,11 @@
 //!
 //! Everything but `timings` and `versions` of a record is the same on every run of the same program, bit for bit.
 
+mod batch;
 mod chart;
 mod config;
 mod cotan;
+mod data;
 mod document;
 mod error;
 mod expect;
@@ -31,17 +33,22 @@ mod map;
 mod model;
 mod normals;
 mod picture;
+mod pool;
 mod record;
 mod repository;
 mod run;
+mod shard;
 mod summary;
+mod surface;
 
 use std::collections::BTreeMap;
 
 use serde_json::Value;
 
+pub use batch::{Batch, Event};
 pub use chart::{AxisSpec, PlotSpec, ReferenceSpec, SeriesSpec};
-pub use config::{Column, Config, Run, Shard};
+pub use config::{Column, Config, Run, Settings};
+pub use data::{DataFile, Origin, data_folders};
 pub use document::Document;
 pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::Bound;
@@ -50,8 +57,8 @@ pub use model::{ModelError, stage_model};
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};
 pub use repository::{find_experiments, revision};
-pub use run::{Progress, run};
-pub use summary::{Summary, summarise, table};
+pub use shard::{NoShard, Shard};
+pub use summary::{Summary, records, summarise, table};
 
 use crate::figure::Format;
 
@@ -73,7 +80,7 @@ pub trait Kind: Sync {
 }
 
 /// One run, ready to be made.
-pub trait Task {
+pub trait Task: Sync {
     /// Makes it.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 use serde::Deserialize;
 use serde_json::json;
 
-use super::map::SurfaceSpec;
+use super::surface::SurfaceSpec;
 use super::{ConfigError, Document, Kind, RunError, Task, Yield};
 use crate::stopwatch::Stopwatch;
 use crate::surface::edges::Edges;
@@ -49,7 +49,7 @@ impl Kind for NormalsKind {
 
     fn task(&self, config: &Document) -> Result<Box<dyn Task>, ConfigError> {
         let EstimatorSpec { name } = config.table("normals")?;
-        Ok(Box::new(NormalsTask { surface: config.table("surface")?, estimator: name }))
+        Ok(Box::new(NormalsTask { surface: SurfaceSpec::of(config)?, estimator: name }))
     }
 }
 

@@ -30,9 +30,12 @@ pub struct Record {
     pub error: Option<String>,
     /// What came out; null if nothing.
     pub result: Value,
+    /// Its pictures: files in `figures/`.
+    #[serde(default)]
+    pub pictures: Vec<String>,
     /// Seconds. Differ from run to run.
     pub timings: Value,
-    /// Versions of what took part: `riemap`, its git `revision`, others.
+    /// Versions of what took part: `riemap`, its git `revision`, public files, other programs.
     pub versions: BTreeMap<String, String>,
 }
 

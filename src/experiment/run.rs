@@ -1,58 +1,80 @@
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::Value;
 
-use super::repository::revision;
-use super::{Config, Outcome, Picture, Record, ResultsError, Run, RunError, Shard, Yield};
+use super::{Config, Outcome, Picture, Record, ResultsError, Run, RunError, Yield};
 use crate::figure::Format;
 use crate::io::atomically;
 
-/// A run that has just ended.
-#[derive(Clone, Copy, Debug)]
-pub struct Progress<'a> {
-    /// Its position among all runs of the config, from 0.
-    pub position: usize,
-    /// All runs of the config.
-    pub total: usize,
-    /// Its record.
-    pub record: &'a Record,
+/// A run that has ended; nothing is written yet.
+pub(super) struct Ended {
+    pub(super) record: Record,
+    pictures: Vec<Picture>,
     /// Wall-clock seconds that it took.
-    pub seconds: f64,
+    pub(super) seconds: f64,
 }
 
-/// Runs the runs of `shard` one after the other; each leaves `results/<config>/<run>.json` and its pictures in
-/// `results/figures/` before the next begins. A run that fails is a record too.
-///
-/// # Errors
-/// [`ResultsError`] where files cannot be written.
-pub fn run(
-    config: &Config,
-    shard: Shard,
-    results: &Path,
-    mut watch: impl FnMut(Progress),
-) -> Result<Vec<Record>, ResultsError> {
-    let folder = results.join(&config.name);
-    make(&folder)?;
-    let mut versions = BTreeMap::from([("riemap".to_owned(), env!("CARGO_PKG_VERSION").to_owned())]);
-    versions.extend(revision().map(|revision| ("revision".to_owned(), revision)));
-    let mut records = Vec::new();
-    for (position, run) in config.shard(shard) {
-        let begun = Instant::now();
-        let ended = run.task.run();
-        let seconds = begun.elapsed().as_secs_f64();
-        let (mut record, pictures) = record(config, run, ended);
-        record.versions.extend(versions.clone());
-        for Picture { suffix, format, bytes } in pictures {
-            write_figure(results, &format!("{}{suffix}", figure_name(config, run)), format, &bytes)?;
-        }
-        write_json(&folder.join(format!("{}.json", run.name)), &record)?;
-        watch(Progress { position, total: config.runs.len(), record: &record, seconds });
-        records.push(record);
+/// Makes a run. A failure is a record too, and so is a panic: no run may end the others.
+pub(super) fn make(config: &Config, run: &Run, versions: &BTreeMap<String, String>) -> Ended {
+    let begun = Instant::now();
+    // Nothing that a panicking task leaves half-done is looked at again.
+    let ended = catch_unwind(AssertUnwindSafe(|| run.task.run()));
+    let seconds = begun.elapsed().as_secs_f64();
+    let ended = ended.unwrap_or_else(|panic| Err(RunError::Panic { message: panic_message(panic.as_ref()) }));
+    let (mut record, pictures) = record(config, run, ended);
+    record.versions.extend(versions.clone());
+    if let Some((data, path)) = run.data.as_ref().and_then(|data| Some((data, data.path.as_ref()?))) {
+        let version = data.version(path).unwrap_or_else(|error| error.to_string());
+        record.versions.insert(format!("data:{}", data.name), version);
     }
-    Ok(records)
+    record.pictures = pictures.iter().map(|picture| picture_name(config, run, picture)).collect();
+    Ended { record, pictures, seconds }
+}
+
+/// Writes `<config>/<run>.json` and the pictures, and removes those that the run had and has no more.
+pub(super) fn write(results: &Path, config: &Config, run: &Run, ended: &Ended) -> Result<(), ResultsError> {
+    let path = record_path(results, config, run);
+    let former = read(&path).map(|record| record.pictures).unwrap_or_default();
+    for (name, picture) in ended.record.pictures.iter().zip(&ended.pictures) {
+        write_figure(results, name, &picture.bytes)?;
+    }
+    make_folder(&results.join(&config.name))?;
+    let json = serde_json::to_string_pretty(&ended.record)?;
+    atomically(&path, |out| writeln!(out, "{json}"))?;
+    remove_pictures(results, former.iter().filter(|name| !ended.record.pictures.contains(name)))
+}
+
+/// The record that `results` has of a run, if it is one of the same settings.
+pub(super) fn stored(results: &Path, config: &Config, run: &Run) -> Option<Record> {
+    read(&record_path(results, config, run)).filter(|record| record.config == run.config)
+}
+
+pub(super) fn read(path: &Path) -> Option<Record> {
+    serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
+}
+
+/// Removes files in `figures/`; what is not the plain name of a file is left alone.
+pub(super) fn remove_pictures<'n>(
+    results: &Path,
+    names: impl IntoIterator<Item = &'n String>,
+) -> Result<(), ResultsError> {
+    for name in names {
+        let path = results.join("figures").join(name);
+        if Path::new(name).file_name().is_some_and(|file| file == name.as_str()) && path.is_file() {
+            fs::remove_file(&path).map_err(|source| ResultsError::Remove { path, source })?;
+        }
+    }
+    Ok(())
+}
+
+fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
+    text.unwrap_or("without a message").to_owned()
 }
 
 /// The record, and the pictures where there is a result.
@@ -64,6 +86,7 @@ fn record(config: &Config, run: &Run, ended: Result<Yield, RunError>) -> (Record
         outcome: Outcome::Done,
         error: None,
         result: Value::Null,
+        pictures: Vec::new(),
         timings: Value::Null,
         versions: BTreeMap::new(),
     };
@@ -113,27 +136,30 @@ fn with_causes(error: &dyn std::error::Error) -> String {
     text
 }
 
-fn figure_name(config: &Config, run: &Run) -> String {
-    if config.swept.is_empty() { config.name.clone() } else { format!("{}-{}", config.name, run.name) }
+fn record_path(results: &Path, config: &Config, run: &Run) -> PathBuf {
+    results.join(&config.name).join(format!("{}.json", run.name))
 }
 
-pub(super) fn write_figure(results: &Path, name: &str, format: Format, bytes: &[u8]) -> Result<PathBuf, ResultsError> {
-    let folder = results.join("figures");
-    make(&folder)?;
-    let extension = match format {
+fn picture_name(config: &Config, run: &Run, picture: &Picture) -> String {
+    let run = if config.swept.is_empty() { String::new() } else { format!("-{}", run.name) };
+    format!("{}{run}{}.{}", config.name, picture.suffix, extension(picture.format))
+}
+
+pub(super) fn extension(format: Format) -> &'static str {
+    match format {
         Format::Png => "png",
         Format::Svg => "svg",
-    };
-    let path = folder.join(format!("{name}.{extension}"));
+    }
+}
+
+pub(super) fn write_figure(results: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, ResultsError> {
+    let folder = results.join("figures");
+    make_folder(&folder)?;
+    let path = folder.join(name);
     atomically(&path, |out| out.write_all(bytes))?;
     Ok(path)
 }
 
-pub(super) fn make(folder: &Path) -> Result<(), ResultsError> {
+pub(super) fn make_folder(folder: &Path) -> Result<(), ResultsError> {
     fs::create_dir_all(folder).map_err(|source| ResultsError::Folder { path: folder.to_owned(), source })
-}
-
-fn write_json(path: &Path, record: &Record) -> Result<(), ResultsError> {
-    let json = serde_json::to_string_pretty(record)?;
-    Ok(atomically(path, |out| writeln!(out, "{json}"))?)
 }

@@ -1,10 +1,9 @@
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::run::{make, write_figure};
+use super::run::{extension, make_folder, stored, write_figure};
 use super::{Config, Outcome, Record, ResultsError, fit};
 use crate::figure::Format;
 use crate::io::atomically;
@@ -18,19 +17,25 @@ pub struct Summary {
     pub files: Vec<PathBuf>,
 }
 
+/// The records that `results` has of `config`'s runs, in the order of the runs, also of those that are not to be made now.
+/// Records of other settings do not count.
+pub fn records(config: &Config, results: &Path) -> Vec<Record> {
+    config.all_runs().into_iter().filter_map(|run| stored(results, config, run)).collect()
+}
+
 /// Sums up the records that `results` has of `config`'s runs, whichever shards they are from: `<config>/table.md` with
-/// everything that is the same on every run, `<config>/timings.md`, and the plots in `figures/`.
+/// everything that is the same on every run, `<config>/timings.md`, and the plots in `figures/`. Without any record nothing
+/// is written.
 ///
 /// # Errors
 /// A key that no record has; a plot or file that cannot be made.
 pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsError> {
     let folder = results.join(&config.name);
-    make(&folder)?;
-    let stored = config.runs.iter().filter_map(|run| {
-        let text = fs::read_to_string(folder.join(format!("{}.json", run.name))).ok()?;
-        serde_json::from_str::<Record>(&text).ok().filter(|record| record.config == run.config)
-    });
-    let records: Vec<Record> = stored.collect();
+    let records = records(config, results);
+    if records.is_empty() {
+        return Ok(Summary { records, files: Vec::new() });
+    }
+    make_folder(&folder)?;
     check_keys(config, &records)?;
     let mut files = Vec::new();
     for (name, timings) in [("table.md", false), ("timings.md", true)] {
@@ -45,7 +50,7 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
         for format in [Format::Png, Format::Svg] {
             let failed = |source| ResultsError::Plot { config: config.path.clone(), plot: name.clone(), source };
             let bytes = spec.plot(&records).render(format).map_err(failed)?;
-            files.push(write_figure(results, &format!("{}-{name}", config.name), format, &bytes)?);
+            files.push(write_figure(results, &format!("{}-{name}.{}", config.name, extension(format)), &bytes)?);
         }
     }
     Ok(Summary { records, files })

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use num_complex::Complex64;
 use riemap::constraint::Fixed;
+use riemap::experiment::data_folders;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint, dual_point};
 use riemap::surface::diagnosis::Diagnosis;
@@ -323,13 +324,9 @@ pub fn fitted_order(n: &[f64], error: &[f64]) -> f64 {
     xy / x.iter().map(|x| (x - mx).powi(2)).sum::<f64>()
 }
 
-/// The folder of public meshes: `$RIEMAP_DATA`, else `../shared/data`, else `data`.
+/// The folder of public meshes, where there is one.
 pub fn data_folder() -> Option<PathBuf> {
-    if let Some(folder) = std::env::var_os("RIEMAP_DATA") {
-        return Some(folder.into());
-    }
-    let here = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    ["../shared/data", "data"].map(|folder| here.join(folder)).into_iter().find(|folder| folder.join("tri").is_dir())
+    data_folders(std::env::var_os("RIEMAP_DATA")).into_iter().find(|folder| folder.join("tri").is_dir())
 }
 
 /// Every mesh with every dual point it has.

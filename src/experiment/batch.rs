@@ -1,0 +1,138 @@
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use super::pool::{Told, pool};
+use super::repository::revision;
+use super::run::{Ended, make, write};
+use super::{Config, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
+
+/// Experiments to be run together.
+pub struct Batch<'a> {
+    /// In this order.
+    pub configs: &'a [Config],
+    /// Of each of them.
+    pub shard: Shard,
+    /// The folder of the results.
+    pub results: &'a Path,
+    /// Runs made at the same time. What comes out does not depend on it.
+    pub threads: NonZeroUsize,
+}
+
+/// What a batch tells while it works.
+pub enum Event<'a> {
+    /// A run begins.
+    Begun {
+        /// Its config.
+        config: &'a Config,
+        /// The run.
+        run: &'a Run,
+    },
+    /// A run has ended; its record and pictures are written.
+    Ended {
+        /// Its config.
+        config: &'a Config,
+        /// The run.
+        run: &'a Run,
+        /// What it left behind.
+        record: &'a Record,
+        /// Wall-clock seconds that it took.
+        seconds: f64,
+    },
+    /// The last run of a config has ended, and its records are summed up.
+    Summed {
+        /// The config.
+        config: &'a Config,
+        /// Its table and plots, or why there are none.
+        summary: Result<&'a Summary, &'a ResultsError>,
+    },
+    /// Time passes.
+    Pulse,
+}
+
+/// A run by the places of its config and of itself therein.
+type Job = (usize, usize);
+
+impl Batch<'_> {
+    /// The runs of the shard whose data are there.
+    pub fn runs(&self) -> impl Iterator<Item = (&Config, &Run)> {
+        self.jobs().into_iter().map(|job| self.of(job))
+    }
+
+    fn jobs(&self) -> Vec<Job> {
+        let there = |run: &Run| run.data.as_ref().is_none_or(|data| data.path.is_some());
+        let runs = |(c, config): (usize, &Config)| -> Vec<Job> {
+            config.shard(self.shard).filter(|(_, run)| there(run)).map(|(r, _)| (c, r)).collect()
+        };
+        self.configs.iter().enumerate().flat_map(runs).collect()
+    }
+
+    fn of(&self, (config, run): Job) -> (&Config, &Run) {
+        (&self.configs[config], &self.configs[config].runs[run])
+    }
+
+    /// Makes the runs, each with a record and pictures in `results`; those of configs that are to run alone come last and
+    /// one at a time. A config is summed up when its last run here has ended. Where `stop` says so, no more runs are begun,
+    /// and what fails from then on counts as not made: the Ctrl-C of a terminal reaches programs that a run calls, too.
+    ///
+    /// # Errors
+    /// [`ResultsError`] where files cannot be written.
+    pub fn run(&self, stop: &(dyn Fn() -> bool + Sync), watch: &mut dyn FnMut(Event)) -> Result<(), ResultsError> {
+        let mut versions = BTreeMap::from([("riemap".to_owned(), env!("CARGO_PKG_VERSION").to_owned())]);
+        versions.extend(revision().map(|revision| ("revision".to_owned(), revision)));
+        let jobs = self.jobs();
+        let mut left = vec![0; self.configs.len()];
+        jobs.iter().for_each(|job| left[job.0] += 1);
+        for (config, _) in self.configs.iter().zip(&left).filter(|(_, left)| **left == 0) {
+            self.sum_up(config, watch);
+        }
+        let (alone, together): (Vec<Job>, Vec<Job>) = jobs.into_iter().partition(|job| self.configs[job.0].alone);
+        for (jobs, threads) in [(together, self.threads.get()), (alone, 1)] {
+            let work = |item: usize| self.make(jobs[item], &versions, stop);
+            pool(jobs.len(), threads, stop, &work, &mut |told| {
+                match told {
+                    Told::Pulse => watch(Event::Pulse),
+                    Told::Begun(item) => {
+                        let (config, run) = self.of(jobs[item]);
+                        watch(Event::Begun { config, run });
+                    }
+                    Told::Ended(item, ended) => {
+                        let (config, run) = self.of(jobs[item]);
+                        let Some(Ended { record, seconds, .. }) = ended? else { return Ok(()) };
+                        watch(Event::Ended { config, run, record: &record, seconds });
+                        left[jobs[item].0] -= 1;
+                        if left[jobs[item].0] == 0 {
+                            self.sum_up(config, watch);
+                        }
+                    }
+                }
+                Ok::<_, ResultsError>(())
+            })?;
+        }
+        Ok(())
+    }
+
+    fn make(
+        &self,
+        job: Job,
+        versions: &BTreeMap<String, String>,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Option<Ended>, ResultsError> {
+        let (config, run) = self.of(job);
+        let ended = make(config, run, versions);
+        if ended.record.outcome == Outcome::Failed && stop() {
+            return Ok(None);
+        }
+        write(self.results, config, run, &ended)?;
+        Ok(Some(ended))
+    }
+
+    /// Nothing is made of nothing: data may not be here.
+    fn sum_up(&self, config: &Config, watch: &mut dyn FnMut(Event)) {
+        match summarise(config, self.results) {
+            Ok(summary) if summary.records.is_empty() => {}
+            Ok(summary) => watch(Event::Summed { config, summary: Ok(&summary) }),
+            Err(error) => watch(Event::Summed { config, summary: Err(&error) }),
+        }
+    }
+}
