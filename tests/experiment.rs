@@ -302,7 +302,7 @@ fn a_checkerboard_is_drawn_beside_the_flat_map_under_a_name_of_its_own() {
     let config = load(&format!("{PLANE}{figures}"), &[]).unwrap();
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(run(&config, Shard::ALL, folder.path())[0].error, None);
-    for picture in ["study.png", "study.svg", "study-checkerboard.png"] {
+    for picture in ["study-flat.png", "study-flat.svg", "study-checkerboard.png"] {
         assert!(folder.path().join("figures").join(picture).is_file(), "{picture}");
     }
     assert_refused(&format!("{PLANE}[figures]\ncheckerboard = {{ squares = -1 }}\n"), &[], &["study.toml:4", "-1"]);

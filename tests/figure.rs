@@ -22,7 +22,7 @@ fn grid(n: u32) -> (Vec<[f64; 2]>, Faces, Vec<f64>) {
 }
 
 fn map<'a>(points: &'a [[f64; 2]], faces: &'a Faces, values: &'a [f64], flipped: &'a [usize]) -> FlatMap<'a> {
-    FlatMap { points, faces, values, flipped, title: "A < B & \"C\" > D", scale_label: LABEL }
+    FlatMap { points, faces, values, flipped, mark: None, title: "A < B & \"C\" > D", scale_label: LABEL }
 }
 
 fn svg(map: &FlatMap) -> String {

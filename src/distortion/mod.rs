@@ -1,12 +1,14 @@
 //! How far a map is from being conformal, from preserving area and length, and from being one-to-one.
 
 mod boundary;
+mod corner;
 mod image;
 mod predicate;
 mod singular;
 mod validity;
 
 pub use boundary::{boundary_crossing, out_of_order};
+pub use corner::corner_errors;
 pub use image::Image;
 pub use predicate::orientation;
 pub use singular::{FaceMap, face_maps};

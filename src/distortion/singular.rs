@@ -68,6 +68,14 @@ fn quad(graph: &QuadGraph, q: usize, corners: [Complex64; 4]) -> FaceMap {
     face_map(a, b, graph.area(q), diagonals_cross_left(corners), convex)
 }
 
+/// σ1 and σ2 of the affine map that takes 1 to `along` and w, Im w > 0, to `across`, up to a common factor:
+/// `along = a + b`, `across = a w + b w̄`.
+pub(super) fn singular_values(w: Complex64, along: Complex64, across: Complex64) -> (f64, f64) {
+    let b = (along * w - across) / Complex64::new(0.0, 2.0 * w.im);
+    let a = along - b;
+    (a.norm() + b.norm(), a.norm() - b.norm())
+}
+
 fn face_map(a: Complex64, b: Complex64, area: f64, positive: bool, convex: bool) -> FaceMap {
     FaceMap { sigma1: a.norm() + b.norm(), sigma2: a.norm() - b.norm(), area, positive, convex }
 }

@@ -7,14 +7,14 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::document::{Axis, Document, Sources};
-use super::{Bound, ConfigError, DataFile, KINDS, Kind, PlotSpec, Shard, Task};
+use super::{Bound, ConfigError, DataFile, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task};
 
 /// More runs than these in one config are taken for a mistake.
 const MOST_RUNS: usize = 10_000;
 /// Longest name of a run's file, without extension.
 const LONGEST_NAME: usize = 100;
 /// The top-level keys of every config.
-const HEAD: [&str; 9] = ["title", "claim", "kind", "alone", "sweep", "full", "expect", "table", "plots"];
+const HEAD: [&str; 10] = ["title", "claim", "kind", "alone", "sweep", "full", "expect", "table", "plots", "sheet"];
 
 /// A column of an experiment's table.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -84,6 +84,8 @@ pub struct Config {
     pub columns: Vec<Column>,
     /// Plots over the runs, by name.
     pub plots: BTreeMap<String, PlotSpec>,
+    /// The figure that the pictures of all runs make, if they do.
+    pub sheet: Option<SheetSpec>,
 }
 
 impl Config {
@@ -132,13 +134,14 @@ impl Config {
             swept: sweep.iter().map(|axis| axis.key.clone()).collect(),
             columns,
             plots: document.optional("plots")?.unwrap_or_default(),
+            sheet: document.optional("sheet")?,
         };
         for (name, plot) in &config.plots {
             if let Some(reason) = plot.contradiction(name) {
                 return Err(document.wrong_plot(name, reason));
             }
         }
-        for key in ["alone", "sweep", "full", "table", "plots"] {
+        for key in ["alone", "sweep", "full", "table", "plots", "sheet"] {
             document.remove(key);
         }
         let runs = sweep.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.values.len()));

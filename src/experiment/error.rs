@@ -196,6 +196,22 @@ pub enum RunError {
     /// No picture.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// A caption asks for what is not there.
+    #[error("the caption has {{{key}}}, but there is no such key; known in `{at}`: {known}")]
+    CaptionKey {
+        /// The dotted key.
+        key: String,
+        /// The part of it that is there.
+        at: String,
+        /// The keys there.
+        known: String,
+    },
+    /// A caption asks for what this map does not have.
+    #[error("the caption has {{{key}}}, which has no value here; in [ ] it would be left out")]
+    CaptionValue {
+        /// The dotted key.
+        key: String,
+    },
     /// A result that is no JSON.
     #[error("the result cannot be written as JSON")]
     Json(#[from] serde_json::Error),
@@ -240,6 +256,22 @@ pub enum ResultsError {
         table: String,
         /// The keys that records have.
         known: String,
+    },
+    /// A picture of a run that is there no more.
+    #[error("{}: the picture cannot be read", path.display())]
+    Panel {
+        /// Its path.
+        path: PathBuf,
+        /// The system's word.
+        source: std::io::Error,
+    },
+    /// A sheet that cannot be made.
+    #[error("{config}: the pictures of its runs cannot be put on one sheet")]
+    Sheet {
+        /// Path of the config.
+        config: String,
+        /// Why.
+        source: FigureError,
     },
     /// A plot that cannot be drawn.
     #[error("{config}: plot `{plot}` cannot be drawn")]

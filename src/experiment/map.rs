@@ -1,12 +1,13 @@
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use super::picture::{Checkerboard, checkerboard_pair, flat_map};
+use super::picture::{Checkerboard, checkerboard_pair, flat_map, maps};
 use super::surface::SurfaceSpec;
-use super::{ConfigError, Document, Kind, Picture, RunError, Task, Yield};
+use super::{Caption, ConfigError, Document, Kind, Mark, Marks, Picture, RunError, Task, Yield};
 use crate::backend::solver_names;
 use crate::figure::Format;
-use crate::map::{self, MapOptions};
+use crate::input::Input;
+use crate::map::{self, MapOptions, Mapped};
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::report::Report;
 use crate::stopwatch::Stopwatch;
@@ -31,10 +32,16 @@ struct FigureSpec {
     flat: bool,
     /// The map flat, beside the surface with the map's checkerboard.
     checkerboard: Option<Checkerboard>,
+    /// Faces of large error are drawn red.
+    mark: Option<Mark>,
+    /// Below the pair, instead of the title.
+    caption: Option<Caption>,
 }
 
 struct MapTask {
     title: String,
+    /// As JSON, for captions.
+    config: Value,
     surface: SurfaceSpec,
     options: MapOptions,
     figures: FigureSpec,
@@ -80,6 +87,7 @@ impl Kind for MapKind {
         config.check_name("solver.name", "solver", &options.solver, &solver_names())?;
         Ok(Box::new(MapTask {
             title: config.optional("title")?.unwrap_or_default(),
+            config: config.to_json()?,
             surface: SurfaceSpec::of(config)?,
             options,
             figures: config.table("figures")?,
@@ -104,16 +112,39 @@ impl Task for MapTask {
                 walk.remove("vertices");
             }
         }
+        let marks = self.figures.mark.map(|mark| Marks::of(&mapped, &maps(&mapped), mark));
+        if let (Some(marks), Some(fields)) = (&marks, result.as_object_mut()) {
+            fields.insert("marked".to_owned(), marks.record());
+        }
+        let pictures = self.pictures(&input, &mapped, marks.as_ref(), &result)?;
+        Ok(Yield { result, timings: serde_json::to_value(seconds)?, pictures, ..Yield::default() })
+    }
+}
+
+impl MapTask {
+    fn pictures(
+        &self,
+        input: &Input,
+        mapped: &Mapped,
+        marks: Option<&Marks>,
+        result: &Value,
+    ) -> Result<Vec<Picture>, RunError> {
+        let FigureSpec { flat, checkerboard, caption, .. } = &self.figures;
         let mut pictures = Vec::new();
-        if self.figures.flat {
+        if *flat {
+            // Beside a pair it is not the figure.
+            let suffix = if checkerboard.is_some() { "-flat" } else { "" };
             for format in [Format::Png, Format::Svg] {
-                pictures.push(Picture { suffix: "", format, bytes: flat_map(&mapped, &self.title, format)? });
+                pictures.push(Picture { suffix, format, bytes: flat_map(mapped, marks, &self.title, format)? });
             }
         }
-        if let Some(look) = self.figures.checkerboard {
-            let bytes = checkerboard_pair(&input, &mapped, look, &self.title)?;
+        if let Some(look) = checkerboard {
+            let values = json!({ "config": self.config, "result": result });
+            let caption = caption.as_ref().map(|caption| caption.filled(&values)).transpose()?;
+            let caption = caption.as_deref().unwrap_or(&self.title);
+            let bytes = checkerboard_pair(input, mapped, *look, marks, caption)?;
             pictures.push(Picture { suffix: "-checkerboard", format: Format::Png, bytes });
         }
-        Ok(Yield { result, timings: serde_json::to_value(seconds)?, pictures, ..Yield::default() })
+        Ok(pictures)
     }
 }

@@ -14,13 +14,15 @@
 //! | `summary.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs` | exponents fitted to the series of plots |
 //! | `map.rs`, `cotan.rs`, `normals.rs` | the kinds of experiment, rows of [`KINDS`] |
-//! | `picture.rs` | maps → their pictures: flat, or as a checkerboard on the surface |
+//! | `picture.rs`, `marks.rs`, `caption.rs` | maps → their pictures: flat, or as a checkerboard on the surface; red faces; captions |
+//! | `sheet.rs` | pictures of all runs → one figure, and its small copy |
 //! | `model.rs` | maps → the surface under its checkerboard, to be turned around in a viewer |
 //! | `repository.rs` | where experiments and results lie; the revision of the program |
 //!
 //! Everything but `timings` and `versions` of a record is the same on every run of the same program, bit for bit.
 
 mod batch;
+mod caption;
 mod chart;
 mod config;
 mod cotan;
@@ -30,6 +32,7 @@ mod error;
 mod expect;
 mod fit;
 mod map;
+mod marks;
 mod model;
 mod normals;
 mod picture;
@@ -38,6 +41,7 @@ mod record;
 mod repository;
 mod run;
 mod shard;
+mod sheet;
 mod summary;
 mod surface;
 
@@ -46,6 +50,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 pub use batch::{Batch, Event};
+pub use caption::{Caption, CaptionError};
 pub use chart::{AxisSpec, PlotSpec, ReferenceSpec, SeriesSpec};
 pub use config::{Column, Config, Run, Settings};
 pub use data::{DataFile, Origin, data_folders};
@@ -53,11 +58,13 @@ pub use document::Document;
 pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::Bound;
 pub use fit::{Abscissa, FitSpec, Fitted};
+pub use marks::{Mark, Marks, Measure};
 pub use model::{ModelError, stage_model};
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};
 pub use repository::{find_experiments, revision};
 pub use shard::{NoShard, Shard};
+pub use sheet::SheetSpec;
 pub use summary::{Summary, records, summarise, table};
 
 use crate::figure::Format;

@@ -3,6 +3,7 @@ use std::path::Path;
 use num_complex::Complex64;
 use serde::Deserialize;
 
+use super::Marks;
 use crate::distortion::{FaceMap, face_maps, quasi_conformal_errors};
 use crate::figure::{Camera, Checker, FigureError, FlatMap, Format, Pair, Shading, SurfaceView};
 use crate::input::Input;
@@ -22,11 +23,13 @@ pub struct Checkerboard {
     pub up: Up,
     /// Direction from the surface to the eye; by default chosen.
     pub towards: Option<[f64; 3]>,
+    /// Longest side of each of the two pictures, in units of paper ([`Pair::SIDE`]).
+    pub side: f64,
 }
 
 impl Default for Checkerboard {
     fn default() -> Checkerboard {
-        Checkerboard { squares: 32, up: Up::Auto, towards: None }
+        Checkerboard { squares: 32, up: Up::Auto, towards: None, side: Pair::SIDE }
     }
 }
 
@@ -71,12 +74,13 @@ impl Up {
     }
 }
 
-/// The map flat, faces coloured by quasi-conformal error. A periodic map is laid out once, as a parallelogram.
+/// The map flat, faces coloured by quasi-conformal error, or by that of `marks`. A periodic map is laid out once, as a
+/// parallelogram.
 ///
 /// # Errors
 /// A map that cannot be drawn.
-pub fn flat_map(mapped: &Mapped, title: &str, format: Format) -> Result<Vec<u8>, FigureError> {
-    FlatParts::of(mapped, &maps(mapped)).figure(title).render(format)
+pub fn flat_map(mapped: &Mapped, marks: Option<&Marks>, title: &str, format: Format) -> Result<Vec<u8>, FigureError> {
+    FlatParts::of(mapped, &maps(mapped), marks).figure(title).render(format)
 }
 
 /// The surface, shaded, with the checkerboard that its map lays on it: conformal where the squares are squares. Flipped
@@ -97,11 +101,14 @@ pub fn checkerboard_pair(
     input: &Input,
     mapped: &Mapped,
     look: Checkerboard,
+    marks: Option<&Marks>,
     caption: &str,
 ) -> Result<Vec<u8>, FigureError> {
     let maps = maps(mapped);
-    let (flat, view) = (FlatParts::of(mapped, &maps), ViewParts::of(mapped, &maps, look.squares)?);
-    Pair { flat: &flat.figure(""), view: &view.figure(input, mapped, look), caption }.render()
+    let (flat, view) = (FlatParts::of(mapped, &maps, marks), ViewParts::of(mapped, &maps, look.squares)?);
+    let reddened = marks.map(Marks::faces).unwrap_or_default();
+    let view = SurfaceView { reddened: &reddened, ..view.figure(input, mapped, look) };
+    Pair { flat: &flat.figure(""), view: &view, side: look.side, caption }.render()
 }
 
 /// What the picture of a surface is made from, beside its positions in the source. Vertices are those of the source, so
@@ -179,10 +186,12 @@ struct FlatParts {
     faces: Faces,
     values: Vec<f64>,
     flipped: Vec<usize>,
+    mark: Option<f64>,
+    label: &'static str,
 }
 
 impl FlatParts {
-    fn of(mapped: &Mapped, maps: &[FaceMap]) -> FlatParts {
+    fn of(mapped: &Mapped, maps: &[FaceMap], marks: Option<&Marks>) -> FlatParts {
         let disc = &mapped.domain.disc;
         let (points, faces) = match &mapped.torus {
             None => {
@@ -195,7 +204,15 @@ impl FlatParts {
                 (unfolded.coordinates(torus, Tiling::Conformal), (0..maps.len()).map(face).collect())
             }
         };
-        FlatParts { points, faces, values: quasi_conformal_errors(maps), flipped: flipped(maps) }
+        let values = marks.map_or_else(|| quasi_conformal_errors(maps), |marks| marks.errors.clone());
+        FlatParts {
+            points,
+            faces,
+            values,
+            flipped: flipped(maps),
+            mark: marks.map(Marks::above),
+            label: marks.map_or("quasi-conformal error σ₁/σ₂", Marks::label),
+        }
     }
 
     fn figure<'a>(&'a self, title: &'a str) -> FlatMap<'a> {
@@ -204,8 +221,9 @@ impl FlatParts {
             faces: &self.faces,
             values: &self.values,
             flipped: &self.flipped,
+            mark: self.mark,
             title,
-            scale_label: "quasi-conformal error σ₁/σ₂",
+            scale_label: self.label,
         }
     }
 }

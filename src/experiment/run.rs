@@ -156,6 +156,7 @@ pub(super) fn write_figure(results: &Path, name: &str, bytes: &[u8]) -> Result<P
     let folder = results.join("figures");
     make_folder(&folder)?;
     let path = folder.join(name);
+    path.parent().map_or(Ok(()), make_folder)?;
     atomically(&path, |out| out.write_all(bytes))?;
     Ok(path)
 }

@@ -53,6 +53,9 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
             files.push(write_figure(results, &format!("{}-{name}.{}", config.name, extension(format)), &bytes)?);
         }
     }
+    if let Some(sheet) = config.sheet {
+        files.extend(sheet.make(config, &records, results)?);
+    }
     Ok(Summary { records, files })
 }
 

@@ -1,5 +1,5 @@
-use super::colour::error_colour;
 use super::drawing::{Anchor, Drawing, Shape};
+use super::page::Colours;
 use super::scale::Scale;
 use super::{style, text};
 
@@ -10,6 +10,7 @@ pub(super) struct Bar {
     /// What stands beside the arrow head.
     beyond: Option<String>,
     label: String,
+    colours: Colours,
     /// What stands beside the swatch for flipped faces.
     flipped: Option<String>,
 }
@@ -24,11 +25,12 @@ const SWATCH: f64 = style::BAR;
 const STRIPS: usize = 400;
 
 impl Bar {
-    pub(super) fn new(scale: &Scale, label: &str, flipped: usize) -> Bar {
+    pub(super) fn new(scale: &Scale, colours: Colours, label: &str, flipped: usize) -> Bar {
         Bar {
             ticks: scale.ticks(),
             beyond: scale.exceeded().then(|| format!("> {}", scale.upper_label())),
             label: label.to_owned(),
+            colours,
             flipped: match flipped {
                 0 => None,
                 1 => Some("1 flipped face".to_owned()),
@@ -65,7 +67,7 @@ impl Bar {
         if let Some(beyond) = &self.beyond {
             let points = vec![[left, top + HEAD], [(left + right) / 2.0, top], [right, top + HEAD]];
             let stroke = Some((style::INK, style::LINE));
-            drawing.shapes.push(Shape::Polygon { points, fill: style::OVER, stroke });
+            drawing.shapes.push(Shape::Polygon { points, fill: self.colours.beyond, stroke });
             drawing.text(
                 [text_left, top + HEAD - 1.25 * style::SMALL_TEXT],
                 Anchor::Start,
@@ -79,7 +81,7 @@ impl Bar {
         for i in (0..STRIPS).rev() {
             let upper = (bottom - length * (i + 1) as f64 / STRIPS as f64).round();
             let t = (i as f64 + 0.5) / STRIPS as f64;
-            drawing.rectangle([left, upper], [right, bottom], error_colour(t));
+            drawing.rectangle([left, upper], [right, bottom], (self.colours.on_scale)(t));
         }
         drawing.frame([left, top], [right, bottom]);
         for (t, label) in &self.ticks {

@@ -31,6 +31,12 @@ const LIPARI: [[u8; 3]; 16] = [
     [21, 59, 94],
 ];
 
+/// Grey of t ∈ [0, 1] (clamped): pale at 0, medium at 1, so that [`super::MARK`] stands out from all of it.
+pub(super) fn grey(t: f64) -> Colour {
+    let level = (246.0 - 96.0 * t.clamp(0.0, 1.0)).round() as u8;
+    Colour([level; 3])
+}
+
 /// Colour of t ∈ [0, 1] (clamped): pale at 0, dark at 1, lightness falling steadily in between, so that it reads in grey
 /// and with any colour vision. Linear between the entries of the table, within 2/255 of the full map.
 pub fn error_colour(t: f64) -> Colour {

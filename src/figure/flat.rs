@@ -16,6 +16,8 @@ pub struct FlatMap<'a> {
     pub values: &'a [f64],
     /// Faces mapped with reversed orientation, in any order.
     pub flipped: &'a [usize],
+    /// Where given, the scale ends at this value (> 1), in greys, and faces beyond it are drawn in [`super::MARK`].
+    pub mark: Option<f64>,
     /// Over the map; two lines at most, may be empty.
     pub title: &'a str,
     /// Beside the colour bar.
@@ -50,6 +52,9 @@ impl FlatMap<'_> {
         }
         if let Some(&face) = self.flipped.iter().find(|f| **f >= faces) {
             return Err(FigureError::Flipped { face, faces });
+        }
+        if let Some(mark) = self.mark.filter(|mark| !(*mark > 1.0 && mark.is_finite())) {
+            return Err(FigureError::Mark { mark });
         }
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for (face, polygon) in self.faces.iter().enumerate() {

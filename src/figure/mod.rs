@@ -14,6 +14,7 @@
 //! | `plot*.rs` | [`Plot`]: series of points on linear or logarithmic axes, laid out by plotters on a `Drawing` |
 //! | `view/` | [`SurfaceView`]: a surface in space, shaded, with a checkerboard on it |
 //! | `pair.rs` | [`Pair`]: a map and its surface side by side |
+//! | `sheet.rs`, `palette.rs` | finished pictures on one sheet; small copies in 256 colours |
 //! | `raster.rs` | polygons → pixels by supersampling; PNG |
 //! | `text.rs`, `style.rs` | the embedded font; colours and sizes that all figures share |
 //!
@@ -27,6 +28,7 @@
 //!     faces: &faces,
 //!     values: &[1.0],
 //!     flipped: &[],
+//!     mark: None,
 //!     title: "One square",
 //!     scale_label: "quasi-conformal error σ₁/σ₂",
 //! };
@@ -43,6 +45,7 @@ mod frame;
 mod outline;
 mod page;
 mod pair;
+mod palette;
 mod plot;
 mod plot_axis;
 mod plot_backend;
@@ -50,6 +53,7 @@ mod plot_chart;
 mod plot_marker;
 mod raster;
 mod scale;
+mod sheet;
 mod style;
 mod text;
 mod view;
@@ -60,8 +64,9 @@ pub use colour::{Colour, error_colour};
 pub use flat::FlatMap;
 pub use pair::Pair;
 pub use plot::{Axis, Plot, Reference, Series};
-pub use scale::Scale;
-pub use style::{ALARM, OVER};
+pub use scale::{Scale, power_of_ten};
+pub use sheet::{compose, small_copy};
+pub use style::{ALARM, MARK, OVER};
 pub use view::{Camera, Checker, Shading, SurfaceView};
 
 /// What a picture is written as.
@@ -181,6 +186,12 @@ pub enum FigureError {
         /// The second coordinate.
         v: f64,
     },
+    /// A scale of values from 1 that would end before it begins.
+    #[error("faces cannot be marked beyond {mark}: errors begin at 1, so the mark must be above it")]
+    Mark {
+        /// As asked for.
+        mark: f64,
+    },
     /// Squares that a map has no place for.
     #[error("{squares} squares cannot be laid across a map {width} wide and {height} high")]
     Squares {
@@ -287,6 +298,15 @@ pub enum FigureError {
     /// What plotters says.
     #[error("the plot could not be laid out")]
     Layout(#[from] plotters::drawing::DrawingAreaErrorKind<std::convert::Infallible>),
+    /// A sheet of nothing.
+    #[error("there is no picture to put on the sheet")]
+    NoPanels,
+    /// A PNG file of another kind than figures are.
+    #[error("the picture is no PNG of 8-bit RGB, as figures are")]
+    Panel,
+    /// No PNG file.
+    #[error("the picture cannot be read as PNG")]
+    Decode(#[from] png::DecodingError),
     /// The encoder refused the picture.
     #[error("the picture could not be encoded as PNG")]
     Encode(#[from] png::EncodingError),

@@ -1,7 +1,7 @@
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
 
 use super::bar::Bar;
-use super::colour::{Colour, error_colour};
+use super::colour::{Colour, error_colour, grey};
 use super::drawing::{Anchor, Drawing, Shape};
 use super::frame::Frame;
 use super::outline::edges;
@@ -25,10 +25,25 @@ const OUTLINE_EDGES: usize = 100_000;
 /// Width of the map's outline.
 const OUTLINE: f64 = 1.6;
 
+/// What a scale is painted with.
+#[derive(Clone, Copy)]
+pub(super) struct Colours {
+    /// Of t ∈ [0, 1].
+    pub(super) on_scale: fn(f64) -> Colour,
+    /// Of values that exceed the scale.
+    pub(super) beyond: Colour,
+}
+
+impl Colours {
+    const PLAIN: Colours = Colours { on_scale: error_colour, beyond: style::OVER };
+    const MARKED: Colours = Colours { on_scale: grey, beyond: style::MARK };
+}
+
 /// A checked map with everything that is decided before drawing. Lengths are pixels.
 pub(super) struct Page<'a> {
     map: &'a FlatMap<'a>,
     scale: Scale,
+    colours: Colours,
     flipped: Vec<bool>,
     frame: Frame,
     bar: Bar,
@@ -46,8 +61,13 @@ impl<'a> Page<'a> {
         let mut flipped: Vec<bool> = map.values.iter().map(|v| *v < 0.0).collect();
         map.flipped.iter().for_each(|f| flipped[*f] = true);
         let upright = map.values.iter().zip(&flipped).filter(|(_, flipped)| !**flipped);
-        let scale = Scale::for_errors(upright.map(|(v, _)| *v));
-        let bar = Bar::new(&scale, map.scale_label, flipped.iter().filter(|f| **f).count());
+        let upright = upright.map(|(v, _)| *v);
+        let scale = match map.mark {
+            Some(mark) => Scale::up_to(mark, upright),
+            None => Scale::for_errors(upright),
+        };
+        let colours = if map.mark.is_some() { Colours::MARKED } else { Colours::PLAIN };
+        let bar = Bar::new(&scale, colours, map.scale_label, flipped.iter().filter(|f| **f).count());
 
         let left = (style::MARGIN + frame.label_width()).ceil();
         let width = (left + frame.size[0] + bar.width() + style::MARGIN).ceil();
@@ -55,7 +75,17 @@ impl<'a> Page<'a> {
         let above = title.len() as f64 * style::TITLE_LINE + if title.is_empty() { 0.0 } else { style::GAP };
         let top = (style::MARGIN + above).ceil();
         let height = (top + frame.size[1] + Frame::label_height() + style::MARGIN).ceil();
-        Ok(Page { map, scale, flipped, frame, bar, title, corner: [left, top], size: [width as u32, height as u32] })
+        Ok(Page {
+            map,
+            scale,
+            colours,
+            flipped,
+            frame,
+            bar,
+            title,
+            corner: [left, top],
+            size: [width as u32, height as u32],
+        })
     }
 
     pub(super) fn to_png(&self) -> Result<Vec<u8>, FigureError> {
@@ -142,7 +172,7 @@ impl<'a> Page<'a> {
     }
 
     fn colour(&self, face: usize) -> Colour {
-        self.scale.position(self.map.values[face]).map_or(style::OVER, error_colour)
+        self.scale.position(self.map.values[face]).map_or(self.colours.beyond, self.colours.on_scale)
     }
 
     /// Title, frame with coordinates, colour bar, legend.

@@ -15,31 +15,37 @@ pub struct Pair<'a> {
     pub flat: &'a FlatMap<'a>,
     /// Right.
     pub view: &'a SurfaceView<'a>,
-    /// Below; three lines at most, may be empty.
+    /// Longest side of either picture in units of paper; [`Pair::SIDE`] fills a page's width.
+    pub side: f64,
+    /// Below; may be empty. It is broken where it has line breaks, and where it is too long.
     pub caption: &'a str,
 }
 
 /// Pixels per unit of paper.
 const ZOOM: usize = 2;
-/// Longest side of either picture.
-const SIDE: f64 = 640.0;
 
 impl Pair<'_> {
+    /// The side of a figure for a page.
+    pub const SIDE: f64 = 640.0;
+
     /// The figure as the bytes of a PNG file.
     ///
     /// # Errors
     /// Those of both parts.
     pub fn render(&self) -> Result<Vec<u8>, FigureError> {
-        let left = Page::of(self.flat, SIDE)?.sheet(ZOOM)?;
+        let left = Page::of(self.flat, self.side)?.sheet(ZOOM)?;
         let title = if self.view.title.is_empty() { 0.0 } else { 2.0 * style::TITLE_LINE };
-        let right = self.view.sheet([SIDE + 2.0 * style::MARGIN, SIDE + 2.0 * style::MARGIN + title], ZOOM)?;
+        let right =
+            self.view.sheet([self.side + 2.0 * style::MARGIN, self.side + 2.0 * style::MARGIN + title], ZOOM)?;
 
         // The middles of both pictures are on one level.
         let level = left.middle.max(right.middle);
         let tops = [&left, &right].map(|part| ((level - part.middle) * ZOOM as f64).round() as u32);
         let bottom = (tops[0] + left.pixels.height()).max(tops[1] + right.pixels.height()).div_ceil(ZOOM as u32);
         let width = (left.pixels.width() + right.pixels.width()).div_ceil(ZOOM as u32);
-        let lines = text::wrap(self.caption, style::TEXT, f64::from(width) - 2.0 * style::MARGIN, 3);
+        let room = f64::from(width) - 2.0 * style::MARGIN;
+        let lines: Vec<String> =
+            self.caption.lines().flat_map(|line| text::wrap(line, style::TEXT, room, usize::MAX)).collect();
         let below = lines.len() as f64 * style::CAPTION_LINE;
         let height = bottom + below as u32;
 

@@ -59,6 +59,12 @@ impl Scale {
         Scale { upper, step, logarithmic, exceeded }
     }
 
+    /// The scale from 1 to a given upper end (> 1), which some of `values` may exceed.
+    pub fn up_to(upper: f64, values: impl IntoIterator<Item = f64>) -> Scale {
+        let logarithmic = upper > LARGEST_LINEAR;
+        Scale { upper, step: (upper - 1.0) / 5.0, logarithmic, exceeded: values.into_iter().any(|v| v > upper) }
+    }
+
     /// The largest value on the scale.
     pub fn upper(&self) -> f64 {
         self.upper
@@ -153,6 +159,17 @@ pub(super) fn exponent_label(value: f64, digits: usize) -> String {
         "1" => format!("10{raised}"),
         "-1" => format!("−10{raised}"),
         _ => format!("{}×10{raised}", mantissa.replace('-', "−")),
+    }
+}
+
+/// `2.50e-26` as it is printed: `2.50×10⁻²⁶`; anything but a number with an exponent unchanged.
+pub fn power_of_ten(number: &str) -> String {
+    match number.split_once('e') {
+        Some((mantissa, exponent)) if mantissa.parse::<f64>().is_ok() && exponent.parse::<i32>().is_ok() => {
+            let raised: String = exponent.chars().map(superscript).collect();
+            format!("{}×10{raised}", mantissa.replace('-', "−"))
+        }
+        _ => number.to_owned(),
     }
 }
 

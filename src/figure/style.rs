@@ -17,6 +17,10 @@ pub const OVER: Colour = Colour([3, 19, 38]);
 /// Flipped faces: a hue that the colour map does not contain, told from it also by red- and green-blind readers.
 pub const ALARM: Colour = Colour([0, 205, 235]);
 
+/// Faces whose error is to be seen at once, on a scale of greys or among the squares of a checkerboard: darker than most of
+/// both, and of a hue that neither has.
+pub const MARK: Colour = Colour([206, 22, 36]);
+
 /// Around everything.
 pub(super) const MARGIN: f64 = 32.0;
 /// Longest side of the plot area.

@@ -114,10 +114,12 @@ fn a_map_and_its_surface_stand_side_by_side() {
         faces: &sheet.faces,
         values: &values,
         flipped: &[],
+        mark: None,
         title: "",
         scale_label: "σ₁/σ₂",
     };
-    let pair = |caption| Pixels::of(&Pair { flat: &flat, view: &sheet.view(), caption }.render().unwrap());
+    let pair =
+        |caption| Pixels::of(&Pair { flat: &flat, view: &sheet.view(), side: Pair::SIDE, caption }.render().unwrap());
     let (bare, captioned) = (pair(""), pair("A caption"));
     assert!(bare.width > 2 * bare.height && captioned.height > bare.height && captioned.width == bare.width);
     // As strong a blue is on the right alone, where the checkerboard is.
@@ -137,6 +139,6 @@ fn maps_of_all_kinds_have_a_checkerboard() {
         let picture = Pixels::of(&checkerboard(&input, &mapped, Checkerboard::default(), source).unwrap());
         let inked = picture.rgb.chunks(3).filter(|c| *c != PAPER.0).count();
         assert!(inked as f64 > 0.3 * (picture.width * picture.height) as f64, "{source}: {inked}");
-        checkerboard_pair(&input, &mapped, Checkerboard::default(), source).unwrap();
+        checkerboard_pair(&input, &mapped, Checkerboard::default(), None, source).unwrap();
     }
 }

@@ -28,7 +28,7 @@ pub(super) fn draw<'a>(
     let title = format!("{}: {} faces", name.unwrap_or_default(), record.input.faces);
     let mut pictures = Vec::new();
     if let Some(path) = arguments.picture.as_deref() {
-        pictures.push((path, flat_map(mapped, &title, Format::from_path(path)?)?));
+        pictures.push((path, flat_map(mapped, None, &title, Format::from_path(path)?)?));
     }
     if let Some(path) = arguments.texture.as_deref() {
         pictures.push((path, checkerboard(input, mapped, Checkerboard::default(), &title)?));

@@ -20,7 +20,7 @@ use crate::surface::Faces;
 use camera::Lens;
 use normals::corner_normals;
 use scene::Scene;
-use shade::{OUTLINE, Paints, SEAM, Shader, encode};
+use shade::{Mark, OUTLINE, Paints, SEAM, Shader, encode};
 
 /// A surface in space under the checkerboard that a map lays on it.
 ///
@@ -41,6 +41,8 @@ pub struct SurfaceView<'a> {
     pub shading: Shading<'a>,
     /// Faces drawn in [`super::ALARM`], in any order.
     pub marked: &'a [usize],
+    /// Faces whose squares are drawn in [`super::MARK`], light and dark, in any order.
+    pub reddened: &'a [usize],
     /// Whether the edges of the mesh are drawn, if an average face has room for them.
     pub edges: bool,
     /// Edges drawn as lines, such as those of a cut, by their ends.
@@ -88,6 +90,7 @@ impl<'a> SurfaceView<'a> {
             uv,
             shading: Shading::default(),
             marked: &[],
+            reddened: &[],
             edges: false,
             seams: &[],
             title: "",
@@ -156,15 +159,16 @@ impl<'a> SurfaceView<'a> {
 
         let face_area = scene.area() / (unit * unit * self.faces.len() as f64);
         let with_edges = self.edges && face_area > FACE_WITH_EDGES;
-        let mut marked = vec![false; self.faces.len()];
-        self.marked.iter().for_each(|f| marked[*f] = true);
+        let mut marks = vec![Mark::None; self.faces.len()];
+        self.reddened.iter().for_each(|f| marks[*f] = Mark::Red);
+        self.marked.iter().for_each(|f| marks[*f] = Mark::Alarm);
         let shader = Shader {
             view: self,
             scene: &scene,
             normals: &corner_normals(self),
             axes: lens.axes,
             outward: lens.outward,
-            marked: &marked,
+            marks: &marks,
             edges: if with_edges { EDGE_WIDTH * unit } else { 0.0 },
             samples: samples as f64,
             paints: Paints::new(),
@@ -198,7 +202,7 @@ impl<'a> SurfaceView<'a> {
         {
             return Err(FigureError::NormalCount { normals: normals.len(), faces });
         }
-        if let Some(&face) = self.marked.iter().find(|f| **f >= faces) {
+        if let Some(&face) = self.marked.iter().chain(self.reddened).find(|f| **f >= faces) {
             return Err(FigureError::Marked { face, faces });
         }
         let points = self.positions.len();

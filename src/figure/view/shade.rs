@@ -5,6 +5,8 @@ use super::checker::SQUARES;
 use super::scene::{EMPTY, FIRST_LINE, Scene, Triangle};
 use crate::surface::vector::{add, dot, norm, scale};
 
+/// [`SQUARES`] of faces of large error: [`style::MARK`], and a lighter red.
+const RED: [Colour; 2] = [Colour([255, 120, 106]), style::MARK];
 /// What the colour is multiplied by on the inner side of an open surface.
 const INNER: [f64; 3] = [0.50, 0.42, 0.36];
 /// Lines in the order of their styles.
@@ -23,6 +25,16 @@ const FADE: [f64; 2] = [0.6, 1.2];
 /// Opacity of mesh edges.
 const EDGE: f64 = 0.55;
 
+/// How a face is told from others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mark {
+    None,
+    /// Its squares are red, light and dark.
+    Red,
+    /// It is all in the colour of flipped faces, unlit.
+    Alarm,
+}
+
 /// What is seen at a sample: light, linear, red, green, blue.
 pub(super) struct Shader<'a> {
     pub(super) view: &'a SurfaceView<'a>,
@@ -32,7 +44,8 @@ pub(super) struct Shader<'a> {
     pub(super) axes: [[f64; 3]; 3],
     /// Whether the normals point to the outer side.
     pub(super) outward: bool,
-    pub(super) marked: &'a [bool],
+    /// One per face.
+    pub(super) marks: &'a [Mark],
     /// Samples from a mesh edge that show it; 0: edges are not drawn.
     pub(super) edges: f64,
     /// Samples per pixel along each axis.
@@ -45,6 +58,7 @@ pub(super) struct Paints {
     paper: [f64; 3],
     lines: [[f64; 3]; LINES.len()],
     squares: [[f64; 3]; 2],
+    red: [[f64; 3]; 2],
     alarm: [f64; 3],
     edge: [f64; 3],
 }
@@ -55,6 +69,7 @@ impl Paints {
             paper: linear(style::PAPER),
             lines: LINES.map(linear),
             squares: SQUARES.map(linear),
+            red: RED.map(linear),
             alarm: linear(style::ALARM),
             edge: linear(style::INK),
         }
@@ -74,7 +89,7 @@ struct Facet {
     normals: [[f64; 3]; 3],
     /// Multiplies the colour.
     tint: [f64; 3],
-    marked: bool,
+    mark: Mark,
     /// Samples per unit of each barycentric coordinate, where the edge opposite its corner is one of the mesh.
     edges: [Option<f64>; 3],
 }
@@ -128,11 +143,11 @@ impl Shader<'_> {
         let is_edge = [!triangle.fan, !triangle.fan, true];
         let edges = [0, 1, 2].map(|i| is_edge[i].then(|| 1.0 / slopes[i][0].hypot(slopes[i][1])));
         let tint = if outer { [1.0; 3] } else { INNER };
-        Facet { number, places, slopes, uv, normals, tint, marked: self.marked[triangle.face], edges }
+        Facet { number, places, slopes, uv, normals, tint, mark: self.marks[triangle.face], edges }
     }
 
     fn light(&self, facet: &Facet, column: usize, row: usize) -> [f64; 3] {
-        if facet.marked {
+        if facet.mark == Mark::Alarm {
             return self.paints.alarm;
         }
         let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
@@ -141,7 +156,7 @@ impl Shader<'_> {
         let total: f64 = weights.iter().sum();
         weights = weights.map(|w| w / total);
         let square = self.square(facet, weights, total);
-        let [bright, dark] = self.paints.squares;
+        let [bright, dark] = if facet.mark == Mark::Red { self.paints.red } else { self.paints.squares };
         let colour: [f64; 3] = std::array::from_fn(|k| dark[k] + (bright[k] - dark[k]) * square);
         let normal = (0..3).fold([0.0; 3], |n, i| add(n, scale(weights[i], facet.normals[i])));
         let lit = illumination(normal);

@@ -1,0 +1,156 @@
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
+
+use super::RunError;
+use super::summary::number;
+use crate::figure::power_of_ten;
+
+/// A caption with places for what a run found: `{result.energy.total}` is the value at that dotted key, a number to four
+/// digits; `{result.distortion.quasi_conformal.max - 1}` how much it exceeds 1. What stands in `[ ]` is left out where one of the keys in it has no value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Caption {
+    parts: Vec<Part>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Part {
+    Text(String),
+    /// A key, and what is subtracted from its value.
+    Value(String, f64),
+    /// In brackets.
+    Optional(Vec<Part>),
+}
+
+/// Braces or brackets that do not match.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CaptionError {
+    /// `{` without `}`, or the other way round.
+    #[error("the caption has a `{0}` without its counterpart; values stand in {{ }}, optional parts in [ ]")]
+    Unmatched(char),
+    /// Brackets in brackets, or a key that is none.
+    #[error("`{0}` in the caption is no key; expected one like {{result.energy.total}}")]
+    NoKey(String),
+}
+
+impl Caption {
+    /// Reads a template.
+    ///
+    /// # Errors
+    /// Braces or brackets that do not match.
+    pub fn parse(text: &str) -> Result<Self, CaptionError> {
+        let (mut parts, mut outer) = (Vec::new(), None);
+        let mut rest = text;
+        while let Some(at) = rest.find(['{', '}', '[', ']']) {
+            if at > 0 {
+                parts.push(Part::Text(rest[..at].to_owned()));
+            }
+            let (sign, after) = (rest.as_bytes()[at] as char, &rest[at + 1..]);
+            rest = after;
+            match sign {
+                '{' => {
+                    let end = after.find('}').ok_or(CaptionError::Unmatched('{'))?;
+                    let no_key = || CaptionError::NoKey(after[..end].to_owned());
+                    let (key, less) = after[..end].split_once(" - ").unwrap_or((&after[..end], "0"));
+                    let less: f64 = less.parse().map_err(|_| no_key())?;
+                    let plain = |c: char| c.is_alphanumeric() || "._-".contains(c);
+                    if key.is_empty() || !key.chars().all(plain) || !less.is_finite() {
+                        return Err(no_key());
+                    }
+                    parts.push(Part::Value(key.to_owned(), less));
+                    rest = &after[end + 1..];
+                }
+                '[' if outer.is_none() => outer = Some(std::mem::take(&mut parts)),
+                ']' => {
+                    let inner = std::mem::replace(&mut parts, outer.take().ok_or(CaptionError::Unmatched(']'))?);
+                    parts.push(Part::Optional(inner));
+                }
+                unmatched => return Err(CaptionError::Unmatched(unmatched)),
+            }
+        }
+        if outer.is_some() {
+            return Err(CaptionError::Unmatched('['));
+        }
+        parts.push(Part::Text(rest.to_owned()));
+        Ok(Caption { parts })
+    }
+
+    /// The caption of a run. `values` has what keys may begin with.
+    ///
+    /// # Errors
+    /// [`RunError::CaptionKey`]: a key that is not there; one that is there without a value may stand in brackets alone.
+    pub fn filled(&self, values: &Value) -> Result<String, RunError> {
+        Ok(fill(&self.parts, values, true)?.unwrap_or_default())
+    }
+}
+
+/// `None` where an optional part misses a value.
+fn fill(parts: &[Part], values: &Value, required: bool) -> Result<Option<String>, RunError> {
+    let mut text = String::new();
+    for part in parts {
+        match part {
+            Part::Text(words) => text.push_str(words),
+            Part::Optional(inner) => text.push_str(&fill(inner, values, false)?.unwrap_or_default()),
+            Part::Value(key, less) => match lookup(values, key)? {
+                Value::Null if !required => return Ok(None),
+                Value::Null => return Err(RunError::CaptionValue { key: key.clone() }),
+                value => {
+                    let difference = value.as_f64().filter(|_| *less != 0.0).map(|x| Value::from(x - less));
+                    text.push_str(&power_of_ten(&number(difference.as_ref().unwrap_or(value))));
+                }
+            },
+        }
+    }
+    Ok(Some(text))
+}
+
+fn lookup<'a>(values: &'a Value, key: &str) -> Result<&'a Value, RunError> {
+    let mut value = values;
+    for (i, name) in key.split('.').enumerate() {
+        let Some(inner) = value.get(name) else {
+            let known = value.as_object().map(|fields| fields.keys().cloned().collect::<Vec<_>>().join(", "));
+            let at = key.split('.').take(i).collect::<Vec<_>>().join(".");
+            return Err(RunError::CaptionKey { key: key.to_owned(), at, known: known.unwrap_or_default() });
+        };
+        value = inner;
+    }
+    Ok(value)
+}
+
+impl<'de> Deserialize<'de> for Caption {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Caption::parse(&String::deserialize(deserializer)?).map_err(serde::de::Error::custom)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn filled(template: &str) -> Result<String, RunError> {
+        let values = json!({"result": {"E": 2.5e-26, "C": null, "name": "quad", "faces": 12, "x": 1.5}});
+        Caption::parse(template).unwrap().filled(&values)
+    }
+
+    #[test]
+    fn values_stand_where_their_keys_do_and_optional_parts_without_one_are_left_out() {
+        assert_eq!(filled("E = {result.E}, {result.faces} {result.name}s").unwrap(), "E = 2.50×10⁻²⁶, 12 quads");
+        assert_eq!(filled("a[, C = {result.C}][, n = {result.faces}]").unwrap(), "a, n = 12");
+        assert_eq!(
+            filled("1.5 - 1 = {result.x - 1}, 12 - 2 = {result.faces - 2}").unwrap(),
+            "1.5 - 1 = 0.5, 12 - 2 = 10"
+        );
+        assert_eq!(filled("").unwrap(), "");
+    }
+
+    #[test]
+    fn keys_that_are_not_there_are_named_with_those_that_are() {
+        let message = filled("{result.e}").unwrap_err().to_string();
+        assert!(message.contains("result.e") && message.contains("faces"), "{message}");
+        assert!(filled("[{result.none}]").is_err());
+        assert!(filled("{result.C}").unwrap_err().to_string().contains("no value"));
+        for wrong in ["{a", "a}", "[a", "a]", "{}", "[[a]]", "{a b}", "{a - b}", "{a - inf}"] {
+            assert!(Caption::parse(wrong).is_err(), "{wrong}");
+        }
+    }
+}
