@@ -323,7 +323,7 @@ fn a_run_against_libigl_comes_out_as_in_results() {
 
 fn plot(log: bool, points: &[[f64; 2]]) -> Plot {
     let axis = |label: &str| Axis { label: label.to_owned(), log };
-    let series = vec![Series { label: "E & more".to_owned(), points: points.to_vec() }];
+    let series = vec![Series { label: "E & more".to_owned(), points: points.to_vec(), cloud: false }];
     Plot { title: "Title".to_owned(), x: axis("across"), y: axis("up"), series, references: Vec::new() }
 }
 

@@ -51,6 +51,9 @@ pub struct SeriesSpec {
     pub by: Option<String>,
     /// Name in the legend; `{}` stands for the value of `by`.
     pub label: String,
+    /// Whether its points are not joined.
+    #[serde(default)]
+    pub cloud: bool,
     /// The exponent that is fitted to it; both axes must be logarithmic.
     pub fit: Option<FitSpec>,
 }
@@ -139,7 +142,7 @@ impl PlotSpec {
             };
             match series.iter_mut().find(|s| s.label == label) {
                 Some(known) => known.points.extend(points),
-                None => series.push(Series { label, points }),
+                None => series.push(Series { label, points, cloud: spec.cloud }),
             }
         }
         series

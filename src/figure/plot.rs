@@ -24,13 +24,15 @@ pub struct Axis {
     pub log: bool,
 }
 
-/// Points that belong together; they are joined in order of x.
+/// Points that belong together; unless they are a cloud they are joined in order of x, through the median of those at one x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Name in the legend.
     pub label: String,
     /// (x, y); points that are not finite are left out.
     pub points: Vec<[f64; 2]>,
+    /// Whether there is no line.
+    pub cloud: bool,
 }
 
 /// The line y = c x^slope.
@@ -67,6 +69,17 @@ impl Plot {
     }
 }
 
+/// Where the line of a series runs, its points in the order of x: through the median of those at one x.
+pub(super) fn medians(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let median = |at: &[[f64; 2]]| {
+        let mut values: Vec<f64> = at.iter().map(|p| p[1]).collect();
+        values.sort_by(f64::total_cmp);
+        // Of an even number the lower one: a point that is there.
+        [at[0][0], values[(values.len() - 1) / 2]]
+    };
+    points.chunk_by(|a, b| a[0] == b[0]).map(median).collect()
+}
+
 impl Reference {
     /// y = c x^slope at `x`, given the points of the plot.
     pub(super) fn at(&self, points: &[[f64; 2]], x: f64) -> f64 {
@@ -78,5 +91,17 @@ impl Reference {
             None => BELOW * points.iter().map(constant).fold(f64::INFINITY, f64::min),
         };
         c * x.powf(self.slope)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::medians;
+
+    #[test]
+    fn lines_run_through_medians_and_single_points() {
+        let points = [[1.0, 5.0], [1.0, 2.0], [1.0, 9.0], [2.0, 4.0], [3.0, 8.0], [3.0, 6.0]];
+        assert_eq!(medians(&points), [[1.0, 5.0], [2.0, 4.0], [3.0, 6.0]]);
+        assert!(medians(&[]).is_empty());
     }
 }

@@ -5,6 +5,7 @@ use plotters::style::{Color, IntoFont, RGBColor, ShapeStyle};
 
 use super::colour::Colour;
 use super::drawing::{Anchor, Drawing};
+use super::plot::medians;
 use super::plot_axis::Ruler;
 use super::plot_backend::{Sheet, fine, place};
 use super::plot_marker::{Marker, RADIUS};
@@ -136,9 +137,9 @@ fn chart(
         let style = stroke(REFERENCE_COLOUR, width);
         chart.draw_series(DashedLineSeries::new(ends, fine(dash).unsigned_abs(), fine(gap).unsigned_abs(), style))?;
     }
-    for (i, series) in points.iter().enumerate() {
+    for (i, series) in points.iter().enumerate().filter(|(i, _)| !plot.series[*i].cloud) {
         let curve = stroke(Marker::of(i).colour, CURVE);
-        chart.draw_series(LineSeries::new(series.iter().map(|p| (p[0], p[1])), curve))?;
+        chart.draw_series(LineSeries::new(medians(series).into_iter().map(|p| (p[0], p[1])), curve))?;
     }
     let area = chart.plotting_area();
     let mark = |i: usize, p: &[f64; 2]| (Marker::of(i), place(area.map_coordinate(&(p[0], p[1]))));
@@ -159,7 +160,9 @@ fn surroundings(plot: &Plot, layout: &Layout, drawing: &mut Drawing) {
     let row = |i: usize| top + RADIUS + (i as f64 + 0.2) * ROW;
     for (i, series) in plot.series.iter().enumerate() {
         let marker = Marker::of(i);
-        drawing.stroke([x, row(i)], [x + SAMPLE, row(i)], marker.colour, CURVE);
+        if !series.cloud {
+            drawing.stroke([x, row(i)], [x + SAMPLE, row(i)], marker.colour, CURVE);
+        }
         marker.draw([x + SAMPLE / 2.0, row(i)], drawing);
         drawing.text([x + SAMPLE + style::GAP, row(i)], Anchor::Start, style::SMALL_TEXT, series.label.as_str());
     }
