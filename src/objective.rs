@@ -57,6 +57,12 @@ impl Objective {
         self.freedoms.restrict_gradient(&g)
     }
 
+    /// |J p|², J the Jacobian of all residuals, coefficients' roots included, at y.
+    pub fn stretch(&self, y: &[f64], p: &[f64]) -> Option<f64> {
+        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
+        self.terms.iter().map(|(t, energy)| Some(t * energy.stretch(&z, &d)?)).sum()
+    }
+
     /// The coefficients of `t ↦ E(y + t p)`, where that is a polynomial.
     pub fn along(&self, y: &[f64], p: &[f64]) -> Option<Polynomial> {
         let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));

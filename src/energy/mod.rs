@@ -63,6 +63,12 @@ pub trait Energy: Sync {
     /// Calls `add(piece, block)` with the second derivatives of every piece at z.
     fn hessian(&self, z: &[Complex64], curvature: Curvature, add: &mut dyn FnMut(usize, &Block));
 
+    /// |J d|², J the derivatives of all residuals at z; `None` where there are no residuals. Summed from J d itself: where this is
+    /// small, dᵀ(JᵀJ)d is lost in rounding.
+    fn stretch(&self, _z: &[Complex64], _d: &[Complex64]) -> Option<f64> {
+        None
+    }
+
     /// Number of squares it is a sum of; 0 where it is none.
     fn residual_count(&self) -> usize;
 

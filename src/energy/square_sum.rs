@@ -118,6 +118,15 @@ impl<S: SquareSum> Energy for S {
         }
     }
 
+    fn stretch(&self, z: &[Complex64], d: &[Complex64]) -> Option<f64> {
+        let stencils = SquareSum::stencils(self);
+        let along = (0..stencils.len()).map(|e| {
+            let stencil = stencils.get(e);
+            self.residuals_along(e, &local(stencil, z), &local(stencil, d))
+        });
+        Some(along.flat_map(|r| r.into_iter().take(self.residuals_per_piece())).map(|r| r.0[1] * r.0[1]).sum())
+    }
+
     fn residual_count(&self) -> usize {
         self.residuals_per_piece() * SquareSum::stencils(self).len()
     }
