@@ -32,6 +32,7 @@
 //! | [`distortion`], [`report`], [`figure`] | how good a map is, its record, its picture |
 //! | [`io`], [`input`] | mesh files, volumes; surfaces by file or name |
 //! | [`verify`], [`libigl`] | the cotan equivalence, checked against libigl itself |
+//! | [`peer`] | maps of other programs, measured as ours are |
 //! | [`experiment`] | configurations, runs, tables, plots |
 //! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
 //!
@@ -78,6 +79,7 @@ pub mod io;
 pub mod libigl;
 pub mod map;
 pub mod objective;
+pub mod peer;
 pub mod periodic;
 pub mod problem;
 pub mod quad_graph;

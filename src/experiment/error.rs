@@ -7,6 +7,7 @@ use crate::input::InputError;
 use crate::io::WriteError;
 use crate::libigl::LibiglError;
 use crate::map::MapError;
+use crate::peer::{MoebiusError, PeerError};
 use crate::surface::normals::NormalError;
 use crate::verify::VerifyError;
 
@@ -190,6 +191,12 @@ pub enum RunError {
     /// No comparison.
     #[error(transparent)]
     Verify(#[from] VerifyError),
+    /// No map of a peer.
+    #[error(transparent)]
+    Peer(#[from] PeerError),
+    /// A map that cannot be laid over the exact one.
+    #[error(transparent)]
+    Moebius(#[from] MoebiusError),
     /// No libigl.
     #[error(transparent)]
     Libigl(#[from] LibiglError),

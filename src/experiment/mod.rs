@@ -13,7 +13,7 @@
 //! | `run.rs` | runs → records in a folder |
 //! | `summary.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs` | exponents fitted to the series of plots |
-//! | `map.rs`, `cotan.rs`, `normals.rs` | the kinds of experiment, rows of [`KINDS`] |
+//! | `map.rs`, `cotan.rs`, `normals.rs`, `peer.rs` | the kinds of experiment, rows of [`KINDS`] |
 //! | `picture.rs`, `marks.rs`, `caption.rs` | maps → their pictures: flat, or as a checkerboard on the surface; red faces; captions |
 //! | `sheet.rs` | pictures of all runs → one figure, and its small copy |
 //! | `model.rs` | maps → the surface under its checkerboard, to be turned around in a viewer |
@@ -35,6 +35,7 @@ mod map;
 mod marks;
 mod model;
 mod normals;
+mod peer;
 mod picture;
 mod pool;
 mod record;
@@ -120,4 +121,4 @@ pub struct Picture {
 }
 
 /// Every kind of experiment; the first is the default.
-pub static KINDS: &[&dyn Kind] = &[&map::MapKind, &cotan::CotanKind, &normals::NormalsKind];
+pub static KINDS: &[&dyn Kind] = &[&map::MapKind, &cotan::CotanKind, &normals::NormalsKind, &peer::PeerKind];

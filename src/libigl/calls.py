@@ -75,7 +75,13 @@ def harmonic(a, options):
     return {"uv": uv}, {**seconds, "interior_edges": weights.size, "negative_weights": int(negative.sum())}
 
 
-FUNCTIONS = {"harmonic": harmonic}
+def lscm(a, options):
+    # the second value is the matrix of its energy
+    (uv, _), seconds = timed(igl.lscm, a["positions"], a["triangles"], a["fixed"], a["values"])
+    return {"uv": uv}, seconds
+
+
+FUNCTIONS = {"harmonic": harmonic, "lscm": lscm}
 
 header, arrays = read(sys.argv[1])
 arrays, fields = FUNCTIONS[header["function"]](arrays, header["options"])

@@ -139,6 +139,12 @@ pub enum LibiglError {
         /// Number of values.
         values: usize,
     },
+    /// Fewer than two fixed vertices: similarities are left free.
+    #[error("{fixed} vertex fixed; a least-squares conformal map needs two")]
+    TooFewFixed {
+        /// Number of fixed vertices.
+        fixed: usize,
+    },
     /// A position or value that is infinite or not a number.
     #[error("{what} {index} (0-based) is not finite")]
     NotFinite {

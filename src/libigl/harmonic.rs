@@ -58,7 +58,7 @@ pub fn harmonic(
     })
 }
 
-fn check(
+pub(super) fn check(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
     fixed: &[u32],
@@ -108,7 +108,7 @@ fn first_undetermined(triangles: &[[u32; 3]], mut determined: Vec<bool>) -> Opti
     (0..parent.len()).find(|&v| !determined[root(&mut parent, v)])
 }
 
-fn finite<const N: usize>(what: &'static str, rows: &[[f64; N]]) -> Result<(), LibiglError> {
+pub(super) fn finite<const N: usize>(what: &'static str, rows: &[[f64; N]]) -> Result<(), LibiglError> {
     match rows.iter().position(|row| !row.iter().all(|x| x.is_finite())) {
         Some(index) => Err(LibiglError::NotFinite { what, index }),
         None => Ok(()),

@@ -1,6 +1,7 @@
 //! libigl itself, to compare with: its Python package in an environment of its own, called through files.
 //!
-//! [`Environment::ensure`] finds or makes the environment, once; [`harmonic`] runs `igl.harmonic` in it. Every call is
+//! [`Environment::ensure`] finds or makes the environment, once; [`harmonic`] and [`lscm`] run
+//! `igl.harmonic` and `igl.lscm` in it. Every call is
 //! one process: nothing of one measurement is left to the next. A further function of libigl is one function in
 //! `calls.py` and one here, like `harmonic.rs`.
 //!
@@ -18,10 +19,12 @@ mod error;
 mod exchange;
 mod harmonic;
 mod interpreter;
+mod lscm;
 mod settings;
 
 pub use environment::{Environment, VERSION};
 pub use error::LibiglError;
 pub use harmonic::{Harmonic, harmonic};
 pub use interpreter::Versions;
+pub use lscm::{Lscm, lscm};
 pub use settings::Settings;

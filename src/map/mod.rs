@@ -141,13 +141,17 @@ pub fn run(input: &Input, options: &MapOptions, watch: &mut dyn Observer) -> Res
         (options.map(&domain, exact, watch)?, None)
     };
     watch.phase(Phase::Measure);
-    let image = image(&map, torus.as_ref());
+    let (distortion, validity) = measure(&domain, &map, torus.as_ref());
+    Ok(Mapped { findings, component, cut, domain, map, torus, distortion, validity })
+}
+
+fn measure(domain: &Domain, map: &Map, torus: Option<&PeriodicMap>) -> (Distortion, Validity) {
+    let image = image(map, torus);
     let mut distortion = Distortion::new(&domain.disc, &domain.graph, domain.planes.as_ref(), &image);
     if map.on_circle {
         distortion.boundary_out_of_order = Some(out_of_order(&mesh_boundary(&domain.graph, &map.z)));
     }
-    let validity = Validity::new(&domain.disc, |c| image.corner(&domain.disc, c));
-    Ok(Mapped { findings, component, cut, domain, map, torus, distortion, validity })
+    (distortion, Validity::new(&domain.disc, |c| image.corner(&domain.disc, c)))
 }
 
 /// Where a map puts corners.
@@ -156,6 +160,13 @@ fn image<'a>(map: &'a Map, torus: Option<&'a PeriodicMap>) -> Image<'a> {
 }
 
 impl Mapped {
+    /// Another map of the same surface, without periods, in the place of this one, and measured.
+    #[must_use]
+    pub fn with(self, map: Map) -> Self {
+        let (distortion, validity) = measure(&self.domain, &map, None);
+        Mapped { map, torus: None, distortion, validity, ..self }
+    }
+
     /// Where the map puts the corners of faces and quads.
     pub fn image(&self) -> Image<'_> {
         image(&self.map, self.torus.as_ref())

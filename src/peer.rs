@@ -1,0 +1,144 @@
+//! Maps of other programs, put where a map of ours would be, so that the same code measures both.
+
+mod moebius;
+
+pub use moebius::{Moebius, MoebiusError};
+
+use num_complex::Complex64;
+
+use crate::backend::Observer;
+use crate::constraint::{Fixed, spread_points};
+use crate::input::Input;
+use crate::libigl::{Environment, LibiglError, harmonic, lscm};
+use crate::map::{Boundary, Domain, Map, MapError, MapOptions, Mapped, Outcome, run};
+
+/// A function of another program.
+pub struct Peer {
+    /// As experiments name it.
+    pub name: &'static str,
+    /// One line.
+    pub description: &'static str,
+    /// Whether the boundary is held on the unit circle.
+    pub on_circle: bool,
+    call: Call,
+}
+
+/// What is held, and where, to an answer.
+type Call = fn(&Environment, &Request) -> Result<Answer, LibiglError>;
+
+struct Request<'a> {
+    positions: &'a [[f64; 3]],
+    triangles: &'a [[u32; 3]],
+    held: &'a [u32],
+    places: &'a [[f64; 2]],
+}
+
+struct Answer {
+    uv: Vec<[f64; 2]>,
+    seconds_cpu: f64,
+}
+
+/// Every peer.
+pub static PEERS: &[Peer] = &[
+    Peer {
+        name: "libigl-harmonic",
+        description: "cotan Laplacian, boundary on the unit circle by arc length",
+        on_circle: true,
+        call: |libigl, r| {
+            let map = harmonic(libigl, r.positions, r.triangles, r.held, r.places)?;
+            Ok(Answer { uv: map.uv, seconds_cpu: map.seconds_cpu })
+        },
+    },
+    Peer {
+        name: "libigl-lscm",
+        description: "least-squares conformal map, boundary free, two boundary vertices held",
+        on_circle: false,
+        call: |libigl, r| {
+            let map = lscm(libigl, r.positions, r.triangles, r.held, r.places)?;
+            Ok(Answer { uv: map.uv, seconds_cpu: map.seconds_cpu })
+        },
+    },
+];
+
+/// The peer of that name.
+pub fn peer(name: &str) -> Option<&'static Peer> {
+    PEERS.iter().find(|peer| peer.name == name)
+}
+
+/// No map of a peer.
+#[derive(Debug, thiserror::Error)]
+pub enum PeerError {
+    /// Not a disc, or another fault of the surface.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// libigl's side failed.
+    #[error(transparent)]
+    Libigl(#[from] LibiglError),
+    /// A quad mesh.
+    #[error("libigl maps triangles; the faces have {corners} corners: triangulate them")]
+    NotTriangles {
+        /// Corners of each face.
+        corners: usize,
+    },
+}
+
+impl Peer {
+    /// The peer's map of `input`, measured, and its CPU seconds. Dual vertices, which it knows nothing of, are put at the
+    /// barycentres of the image faces and the midpoints of the image's boundary edges.
+    ///
+    /// # Errors
+    /// A surface that is no disc of triangles; a peer that fails.
+    pub fn map(
+        &self,
+        input: &Input,
+        libigl: &Environment,
+        watch: &mut dyn Observer,
+    ) -> Result<(Mapped, f64), PeerError> {
+        let corners = input.surface.faces.arity().unwrap_or(0);
+        if corners != 3 {
+            return Err(PeerError::NotTriangles { corners });
+        }
+        // Opens the surface and lays its boundary on the circle.
+        let options = MapOptions { boundary: Boundary::Fixed, ..MapOptions::default() };
+        let mapped = run(input, &options, watch)?;
+        let Domain { disc, graph, .. } = &mapped.domain;
+        let held: Vec<u32> = match self.on_circle {
+            true => disc.boundary.clone(),
+            // Of two, as far from each other along the boundary as can be; both are vertices of the mesh.
+            false => spread_points(graph, 2).into_iter().map(|k| graph.boundary[k]).collect(),
+        };
+        let places: Vec<[f64; 2]> = held.iter().map(|&v| mapped.map.z[v as usize]).map(|z| [z.re, z.im]).collect();
+        let triangles: Vec<[u32; 3]> = disc.faces.iter().filter_map(|t| t.try_into().ok()).collect();
+        let request = Request { positions: &disc.positions, triangles: &triangles, held: &held, places: &places };
+        let Answer { uv, seconds_cpu } = (self.call)(libigl, &request)?;
+        let mut z: Vec<Complex64> = uv.iter().map(|&[x, y]| Complex64::new(x, y)).collect();
+        let barycentres: Vec<Complex64> =
+            triangles.iter().map(|t| t.iter().map(|&v| z[v as usize]).sum::<Complex64>() / 3.0).collect();
+        let next = disc.boundary.iter().cycle().skip(1);
+        let midpoints: Vec<Complex64> =
+            disc.boundary.iter().zip(next).map(|(&v, &w)| (z[v as usize] + z[w as usize]) / 2.0).collect();
+        z.extend(barycentres);
+        z.extend(midpoints);
+        let mut fixed = Fixed::default();
+        for (&v, &[x, y]) in held.iter().zip(&places) {
+            fixed.hold(v, Complex64::new(x, y));
+        }
+        let map = Map {
+            z,
+            fixed,
+            total: None,
+            energies: Vec::new(),
+            gradient_norm: None,
+            backend: self.name,
+            outcome: Outcome::Solved,
+            iterations: 0,
+            residual: None,
+            smallest_singular_value: None,
+            on_circle: self.on_circle,
+            anchored: false,
+            exactly: None,
+            repaired: false,
+        };
+        Ok((mapped.with(map), seconds_cpu))
+    }
+}

@@ -1,0 +1,55 @@
+//! Maps of libigl, measured by our code: cases that are known exactly.
+
+#![allow(clippy::unwrap_used)]
+
+use riemap::backend::Silent;
+use riemap::input::Input;
+use riemap::libigl::{Environment, LibiglError, lscm};
+use riemap::map::{Boundary, MapOptions, Mapped, run};
+use riemap::peer::{PeerError, peer};
+
+fn map(name: &str, source: &str) -> Mapped {
+    let libigl = Environment::ensure().unwrap_or_else(|error| panic!("{error}"));
+    let input = Input::open(source).unwrap();
+    peer(name).unwrap().map(&input, &libigl, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}")).0
+}
+
+#[test]
+fn least_squares_conformal_maps_of_plane_meshes_are_similarities() {
+    let mapped = map("libigl-lscm", "plane?n=16&mesh=delaunay&seed=2");
+    let distortion = &mapped.distortion;
+    // A solution of some 500 equations with residual 0; measured 1e-13.
+    assert!(distortion.quasi_conformal.unwrap().max < 1.0 + 1e-9);
+    assert!(distortion.length.unwrap().max < 1.0 + 1e-9);
+    // Dual vertices are where a similarity puts them, too.
+    assert!(distortion.rho_residual.unwrap().max < 1e-9);
+    assert_eq!((distortion.flipped, distortion.boundary_out_of_order), (0, None));
+}
+
+#[test]
+fn the_harmonic_map_is_ours_with_circumcentres() {
+    let source = "catenoid?n=12&mesh=delaunay&seed=5";
+    let theirs = map("libigl-harmonic", source);
+    let options = MapOptions { boundary: Boundary::Fixed, dual: "circumcentre".to_owned(), ..MapOptions::default() };
+    let ours = run(&Input::open(source).unwrap(), &options, &mut Silent).unwrap();
+    let primal = ours.domain.graph.primal;
+    let farthest = (0..primal).map(|v| (ours.map.z[v] - theirs.map.z[v]).norm()).fold(0.0, f64::max);
+    // As in the cotan equivalence.
+    assert!(farthest < 1e-9, "{farthest:e}");
+    let [a, b] = [&ours, &theirs].map(|mapped| mapped.distortion.quasi_conformal.unwrap());
+    assert!((a.mean - b.mean).abs() < 1e-8 && (a.max - b.max).abs() < 1e-6);
+    assert_eq!(theirs.distortion.boundary_out_of_order, Some(0));
+    assert_eq!(theirs.domain.graph.vertices, theirs.map.z.len());
+}
+
+#[test]
+fn what_a_peer_cannot_map_is_refused() {
+    let libigl = Environment::ensure().unwrap_or_else(|error| panic!("{error}"));
+    let quads = Input::open("sphere?n=8").unwrap();
+    let refused = peer("libigl-lscm").unwrap().map(&quads, &libigl, &mut Silent);
+    assert!(matches!(refused, Err(PeerError::NotTriangles { corners: 4 })));
+    let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let refused = lscm(&libigl, &triangle, &[[0, 1, 2]], &[0], &[[0.0, 0.0]]);
+    assert!(matches!(refused, Err(LibiglError::TooFewFixed { fixed: 1 })));
+    assert!(peer("nobody").is_none());
+}
