@@ -12,6 +12,7 @@ pub struct Stopwatch {
     phase: Option<Phase>,
     seconds: Seconds,
     trace: Option<Vec<Traced>>,
+    terms: bool,
 }
 
 /// An iteration and when it ended.
@@ -27,11 +28,16 @@ impl Stopwatch {
     /// Begins with reading.
     pub fn start() -> Self {
         let now = Instant::now();
-        Stopwatch { begun: now, last: now, phase: None, seconds: Seconds::default(), trace: None }
+        Stopwatch { begun: now, last: now, phase: None, seconds: Seconds::default(), trace: None, terms: false }
     }
 
     /// The same, keeping every iteration with its energies.
     pub fn tracing() -> Self {
+        Stopwatch { terms: true, ..Self::counting() }
+    }
+
+    /// The same, keeping every iteration with its total energy alone, which costs no time.
+    pub fn counting() -> Self {
         Stopwatch { trace: Some(Vec::new()), ..Self::start() }
     }
 
@@ -73,6 +79,6 @@ impl Observer for Stopwatch {
     }
 
     fn wants_terms(&self) -> bool {
-        self.trace.is_some()
+        self.terms
     }
 }

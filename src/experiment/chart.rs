@@ -3,9 +3,10 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::panels::above_lowest;
 use super::summary::number;
-use super::{FitSpec, Fitted, Record};
-use crate::figure::{Axis, Plot, Reference, Series};
+use super::{FitSpec, Fitted, PanelSpec, Record};
+use crate::figure::{Axis, Panels, Plot, Reference, Series};
 
 /// `[plots.NAME]`: a plot over the runs of an experiment.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -26,6 +27,9 @@ pub struct PlotSpec {
     /// Dashed lines to compare slopes with.
     #[serde(default)]
     pub reference: Vec<ReferenceSpec>,
+    /// Small plots beside each other instead of one.
+    #[serde(default)]
+    pub panels: PanelSpec,
 }
 
 /// An axis.
@@ -39,6 +43,10 @@ pub struct AxisSpec {
     /// Whether it is logarithmic; values that are not positive are then left out.
     #[serde(default)]
     pub log: bool,
+    /// For y only: the distance to the lowest value in the panel, E*, which its title then states. E* = 0 where the lowest
+    /// is as good as 0, below 10⁻⁸ of the highest.
+    #[serde(default)]
+    pub above_lowest: bool,
 }
 
 /// One series, or one for each value of `by`.
@@ -74,7 +82,7 @@ impl PlotSpec {
     /// Every dotted key that the plot reads.
     pub fn keys(&self) -> impl Iterator<Item = &String> {
         let series = self.series.iter().flat_map(|s| std::iter::once(&s.y).chain(&s.by));
-        self.x.key.iter().chain(series).chain(self.only.keys())
+        self.x.key.iter().chain(series).chain(self.only.keys()).chain(self.panels.keys())
     }
 
     /// Whether it shows times, which differ from run to run.
@@ -95,16 +103,27 @@ impl PlotSpec {
     }
 
     /// The plot of `records`. A run whose value is an array is a series of its own points.
-    pub fn plot(&self, records: &[Record]) -> Plot {
+    pub fn plot(&self, records: &[Record]) -> Panels {
         let axis = |spec: &AxisSpec| Axis { label: spec.label.clone(), log: spec.log };
         let reference = |r: &ReferenceSpec| Reference { slope: r.slope, through: r.through, label: r.label.clone() };
-        Plot {
-            title: self.title.clone(),
-            x: axis(&self.x),
-            y: axis(&self.y),
-            series: self.fitted(records).into_iter().map(|(series, fitted)| named(series, fitted)).collect(),
-            references: self.reference.iter().map(reference).collect(),
-        }
+        let kept = self.kept(records);
+        let (cells, columns) = self.panels.cells(&kept);
+        let plots = cells.into_iter().map(|cell| {
+            let fitted = self.fitted(&cell.records).into_iter();
+            let mut series: Vec<Series> = fitted.map(|(series, fitted)| named(series, fitted)).collect();
+            let mut title = cell.title;
+            if self.y.above_lowest {
+                title = format!("{title}{}E* = {}", if title.is_empty() { "" } else { ", " }, lowered(&mut series));
+            }
+            Plot {
+                title,
+                x: axis(&self.x),
+                y: axis(&self.y),
+                series,
+                references: self.reference.iter().map(reference).collect(),
+            }
+        });
+        Panels { title: self.title.clone(), plots: plots.collect(), columns }
     }
 
     /// The exponents that the plot's series have, with their labels; empty where none is asked for.
@@ -112,16 +131,26 @@ impl PlotSpec {
         if self.series.iter().all(|series| series.fit.is_none()) {
             return Vec::new();
         }
-        self.fitted(records).into_iter().map(|(series, fitted)| (series.label, fitted)).collect()
+        let kept = self.kept(records);
+        let mut fits = Vec::new();
+        for cell in self.panels.cells(&kept).0 {
+            let title = if cell.title.is_empty() { String::new() } else { format!("{}: ", cell.title) };
+            let of_cell = self.fitted(&cell.records).into_iter();
+            fits.extend(of_cell.map(|(series, fitted)| (format!("{title}{}", series.label), fitted)));
+        }
+        fits
+    }
+
+    fn kept<'a>(&self, records: &'a [Record]) -> Vec<&'a Record> {
+        let kept = |r: &&Record| self.only.iter().all(|(key, wanted)| r.get(key).is_some_and(|v| matches(&v, wanted)));
+        records.iter().filter(kept).collect()
     }
 
     /// The series without their exponents in the label, and these.
-    fn fitted(&self, records: &[Record]) -> Vec<(Series, Option<Fitted>)> {
-        let kept = |r: &&Record| self.only.iter().all(|(key, wanted)| r.get(key).is_some_and(|v| matches(&v, wanted)));
-        let kept: Vec<&Record> = records.iter().filter(kept).collect();
+    fn fitted(&self, records: &[&Record]) -> Vec<(Series, Option<Fitted>)> {
         let mut fitted = Vec::new();
         for spec in &self.series {
-            for series in self.series(spec, &kept) {
+            for series in self.series(spec, records) {
                 let fit = spec.fit.and_then(|fit| fit.fit(&series.points));
                 fitted.push((series, fit));
             }
@@ -156,12 +185,22 @@ fn named(series: Series, fitted: Option<Fitted>) -> Series {
     }
 }
 
+/// What was taken away, as titles have it.
+fn lowered(series: &mut [Series]) -> String {
+    let lowest = above_lowest(series);
+    match lowest {
+        0.0 => "0".to_owned(),
+        _ if (1e-3..1e6).contains(&lowest) => format!("{lowest:.6}"),
+        _ => format!("{lowest:.3e}"),
+    }
+}
+
 fn point((x, y): (&Value, &Value)) -> Option<[f64; 2]> {
     Some([x.as_f64()?, y.as_f64()?])
 }
 
 /// Whether `value` is the wanted one, or one of a list of these.
-fn matches(value: &Value, wanted: &Value) -> bool {
+pub(super) fn matches(value: &Value, wanted: &Value) -> bool {
     match wanted {
         Value::Array(any) => any.iter().any(|wanted| same(value, wanted)),
         _ => same(value, wanted),

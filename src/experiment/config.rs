@@ -7,14 +7,15 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::document::{Axis, Document, Sources};
-use super::{Bound, ConfigError, DataFile, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task};
+use super::{Bound, ConfigError, DataFile, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task, Without, convergence};
 
 /// More runs than these in one config are taken for a mistake.
 const MOST_RUNS: usize = 10_000;
 /// Longest name of a run's file, without extension.
 const LONGEST_NAME: usize = 100;
 /// The top-level keys of every config.
-const HEAD: [&str; 10] = ["title", "claim", "kind", "alone", "sweep", "full", "expect", "table", "plots", "sheet"];
+const HEAD: [&str; 11] =
+    ["title", "claim", "kind", "alone", "sweep", "full", "without", "expect", "table", "plots", "sheet"];
 
 /// A column of an experiment's table.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -80,6 +81,8 @@ pub struct Config {
     pub more: Vec<Run>,
     /// The dotted keys that are swept, in the order of the file.
     pub swept: Vec<String>,
+    /// Runs of the sweep that are not made.
+    pub without: Vec<Without>,
     /// Columns of the table, after the swept keys.
     pub columns: Vec<Column>,
     /// Plots over the runs, by name.
@@ -132,16 +135,28 @@ impl Config {
             runs: Vec::new(),
             more: Vec::new(),
             swept: sweep.iter().map(|axis| axis.key.clone()).collect(),
+            without: document.optional("without")?.unwrap_or_default(),
             columns,
             plots: document.optional("plots")?.unwrap_or_default(),
             sheet: document.optional("sheet")?,
         };
+        let words =
+            sweep.iter().map(|axis| (axis.key.clone(), axis.values.iter().all(|value| value.get_ref().is_str())));
+        for (name, plot) in convergence::plots(&document, &words.collect::<Vec<_>>())? {
+            config.plots.entry(name).or_insert(plot);
+        }
+        for without in &config.without {
+            let unknown = without.runs.keys().find(|key| !config.swept.contains(key) && !set.contains(*key));
+            if let Some(key) = unknown {
+                return Err(document.not_swept(key, &config.swept));
+            }
+        }
         for (name, plot) in &config.plots {
             if let Some(reason) = plot.contradiction(name) {
                 return Err(document.wrong_plot(name, reason));
             }
         }
-        for key in ["alone", "sweep", "full", "table", "plots", "sheet"] {
+        for key in ["alone", "sweep", "full", "without", "table", "plots", "sheet"] {
             document.remove(key);
         }
         let runs = sweep.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.values.len()));
@@ -155,7 +170,11 @@ impl Config {
                 document.assign(&key.split('.').collect::<Vec<_>>(), (*value).clone())?;
             }
             let run = run(kind, position, document, &config.swept, &mut names)?;
-            if full || !point.full { config.runs.push(run) } else { config.more.push(run) }
+            match config.without.iter().any(|without| without.holds(&run.config)) {
+                true => {}
+                false if full || !point.full => config.runs.push(run),
+                false => config.more.push(run),
+            }
         }
         Ok(config)
     }

@@ -164,6 +164,12 @@ impl<'a> Document<'a> {
         ConfigError::Plot { place: self.sources.place(plot.map_or(0..0, Spanned::span)), plot: name.to_owned(), reason }
     }
 
+    /// The error of a key in `[[without]]` that is not swept over.
+    pub(super) fn not_swept(&self, key: &str, swept: &[String]) -> ConfigError {
+        let place = self.sources.place(self.root.get_ref().get("without").map_or(0..0, Spanned::span));
+        ConfigError::NotSwept { place, table: "[[without]]", key: key.to_owned(), known: swept.join(", ") }
+    }
+
     /// The swept keys in the order of the file, each with its values.
     pub(super) fn sweep(&self) -> Result<Vec<Axis<'a>>, ConfigError> {
         let mut axes = self.arrays("sweep")?;
@@ -171,7 +177,8 @@ impl<'a> Document<'a> {
             let Some(axis) = axes.iter_mut().find(|axis| axis.key == more.key) else {
                 let known: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
                 let known = if known.is_empty() { "nothing".to_owned() } else { known.join(", ") };
-                return Err(ConfigError::NotSwept { place: self.sources.place(more.span), key: more.key, known });
+                let place = self.sources.place(more.span);
+                return Err(ConfigError::NotSwept { place, table: "[full]", key: more.key, known });
             };
             axis.values.extend(more.values);
         }

@@ -126,11 +126,13 @@ pub enum ConfigError {
         /// The dotted key.
         key: String,
     },
-    /// A key of `[full]` that `[sweep]` does not have.
-    #[error("{place}: `{key}` of [full] is not swept; [sweep] has: {known}\n{}", place.excerpt())]
+    /// A key of `[full]` or `[[without]]` that `[sweep]` does not have.
+    #[error("{place}: `{key}` of {table} is not swept; [sweep] has: {known}\n{}", place.excerpt())]
     NotSwept {
         /// Where.
         place: Box<Place>,
+        /// Whose key it is.
+        table: &'static str,
         /// The dotted key.
         key: String,
         /// The swept keys.

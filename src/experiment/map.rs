@@ -1,9 +1,10 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use super::convergence::one_or_more;
 use super::picture::{Checkerboard, checkerboard_pair, flat_map, maps};
 use super::surface::SurfaceSpec;
-use super::{Caption, ConfigError, Document, Kind, Mark, Marks, Picture, RunError, Task, Yield};
+use super::{Caption, ConfigError, Convergence, Document, Kind, Mark, Marks, Picture, RunError, Task, Yield, trace};
 use crate::backend::solver_names;
 use crate::figure::Format;
 use crate::input::Input;
@@ -36,6 +37,9 @@ struct FigureSpec {
     mark: Option<Mark>,
     /// Below the pair, instead of the title.
     caption: Option<Caption>,
+    /// How the runs converge, all in one plot.
+    #[serde(deserialize_with = "one_or_more")]
+    convergence: Vec<Convergence>,
 }
 
 struct MapTask {
@@ -97,7 +101,8 @@ impl Kind for MapKind {
 
 impl Task for MapTask {
     fn run(&self) -> Result<Yield, RunError> {
-        let mut watch = Stopwatch::start();
+        let traced = !self.figures.convergence.is_empty();
+        let mut watch = if traced { Stopwatch::counting() } else { Stopwatch::start() };
         let input = self.surface.open()?;
         let mapped = map::run(&input, &self.options, &mut watch)?;
         let seconds = watch.seconds();
@@ -105,6 +110,12 @@ impl Task for MapTask {
         // Timings have a place of their own in the record.
         if let Some(solver) = result.get_mut("solver").and_then(Value::as_object_mut) {
             solver.remove("seconds");
+        }
+        let mut timings = serde_json::to_value(seconds)?;
+        if traced {
+            let (numbers, times) = trace(watch.trace(), mapped.map.total);
+            result["trace"] = numbers;
+            timings["trace"] = times;
         }
         // The walks along the mesh are as long as it is wide; their lengths remain.
         for walk in result.pointer_mut("/periods/loops").and_then(Value::as_array_mut).into_iter().flatten() {
@@ -117,7 +128,7 @@ impl Task for MapTask {
             fields.insert("marked".to_owned(), marks.record());
         }
         let pictures = self.pictures(&input, &mapped, marks.as_ref(), &result)?;
-        Ok(Yield { result, timings: serde_json::to_value(seconds)?, pictures, ..Yield::default() })
+        Ok(Yield { result, timings, pictures, ..Yield::default() })
     }
 }
 

@@ -8,11 +8,12 @@
 //! |---|---|
 //! | `document.rs` | TOML that knows its lines; setting dotted keys; errors with line and caret |
 //! | `config.rs` | [`Config`]: a file made into [`Run`]s; [`Shard`]s of them |
-//! | `expect.rs` | bounds on results |
+//! | `expect.rs`, `without.rs` | bounds on results; runs that are not made |
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
 //! | `run.rs` | runs → records in a folder |
 //! | `summary.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
-//! | `fit.rs` | exponents fitted to the series of plots |
+//! | `fit.rs`, `panels.rs` | exponents fitted to the series of plots; plots beside each other |
+//! | `convergence.rs` | iterations as records keep them; the plots that `[figures] convergence` asks for |
 //! | `map.rs`, `cotan.rs`, `normals.rs`, `peer.rs` | the kinds of experiment, rows of [`KINDS`] |
 //! | `picture.rs`, `marks.rs`, `caption.rs` | maps → their pictures: flat, or as a checkerboard on the surface; red faces; captions |
 //! | `sheet.rs` | pictures of all runs → one figure, and its small copy |
@@ -25,6 +26,7 @@ mod batch;
 mod caption;
 mod chart;
 mod config;
+mod convergence;
 mod cotan;
 mod data;
 mod document;
@@ -35,6 +37,7 @@ mod map;
 mod marks;
 mod model;
 mod normals;
+mod panels;
 mod peer;
 mod picture;
 mod pool;
@@ -45,6 +48,7 @@ mod shard;
 mod sheet;
 mod summary;
 mod surface;
+mod without;
 
 use std::collections::BTreeMap;
 
@@ -54,6 +58,7 @@ pub use batch::{Batch, Event};
 pub use caption::{Caption, CaptionError};
 pub use chart::{AxisSpec, PlotSpec, ReferenceSpec, SeriesSpec};
 pub use config::{Column, Config, Run, Settings};
+pub use convergence::{Convergence, ConvergenceX, ConvergenceY, trace};
 pub use data::{DataFile, Origin, data_folders};
 pub use document::Document;
 pub use error::{ConfigError, Place, ResultsError, RunError};
@@ -61,12 +66,14 @@ pub use expect::Bound;
 pub use fit::{Abscissa, FitSpec, Fitted};
 pub use marks::{Mark, Marks, Measure};
 pub use model::{ModelError, stage_model};
+pub use panels::PanelSpec;
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};
 pub use repository::{find_experiments, revision};
 pub use shard::{NoShard, Shard};
 pub use sheet::SheetSpec;
 pub use summary::{Summary, records, summarise, table};
+pub use without::Without;
 
 use crate::figure::Format;
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::run::{extension, make_folder, stored, write_figure};
-use super::{Config, Outcome, Record, ResultsError, fit};
+use super::{Config, Outcome, Record, ResultsError, fit, without};
 use crate::figure::Format;
 use crate::io::atomically;
 
@@ -77,12 +77,13 @@ fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
     Ok(())
 }
 
-/// The records as Markdown, and the exponents fitted to the series of plots; `timings`: the columns that differ from run to run instead of the others. `None` if there are
-/// none of these.
+/// The records as Markdown, and the exponents fitted to the series of plots; `timings`: what differs from run to run instead
+/// of the rest. `None` if there is nothing of that.
 pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<String> {
     let is_timing = |key: &str| key.starts_with("timings.");
     let columns: Vec<_> = config.columns.iter().filter(|column| is_timing(&column.key) == timings).collect();
-    if columns.is_empty() && timings {
+    let fits = fit::table(config, records, timings);
+    if columns.is_empty() && fits.is_empty() && timings {
         return None;
     }
     let heading = |key: &String| key.rsplit('.').next().unwrap_or(key).to_owned();
@@ -116,7 +117,8 @@ pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<Strin
         let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|").replace('\n', " ")).collect();
         let _ = writeln!(text, "| {} |", cells.join(" | "));
     }
-    text.push_str(&fit::table(config, records, timings));
+    text.push_str(&without::note(&config.without));
+    text.push_str(&fits);
     Some(text)
 }
 

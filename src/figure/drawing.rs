@@ -68,6 +68,11 @@ impl Drawing {
         self.shapes.push(Shape::Text { middle, anchor, size, upward: false, text: text.into() });
     }
 
+    /// Text along y, from below, around its middle.
+    pub(super) fn upward(&mut self, middle: [f64; 2], size: f64, text: impl Into<String>) {
+        self.shapes.push(Shape::Text { middle, anchor: Anchor::Middle, size, upward: true, text: text.into() });
+    }
+
     /// The drawing as an SVG file on white paper.
     pub(super) fn to_svg(&self, width: u32, height: u32) -> String {
         let mut svg = format!(

@@ -15,6 +15,28 @@ pub struct Plot {
     pub references: Vec<Reference>,
 }
 
+/// Plots of one kind beside each other: they share the legend, panels above each other the x axis, panels beside each other
+/// the y axis. A single one is drawn as a [`Plot`] is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panels {
+    /// Over all of them; each has its own title too, unless it is the only one.
+    pub title: String,
+    /// Row by row, with the same axes.
+    pub plots: Vec<Plot>,
+    /// How many stand beside each other.
+    pub columns: usize,
+}
+
+impl Panels {
+    /// The panels as the bytes of a file.
+    ///
+    /// # Errors
+    /// As [`Plot::render`]; a column or row without a single point.
+    pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
+        plot_chart::render(self, format)
+    }
+}
+
 /// An axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -53,7 +75,7 @@ impl Plot {
     /// [`FigureError::NoPoints`] where nothing is left to draw; [`FigureError::Slope`] for a slope on an axis that is not
     /// logarithmic; [`FigureError::PlotRange`] for values that floating point cannot lay on paper.
     pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
-        plot_chart::render(self, format)
+        Panels { title: self.title.clone(), plots: vec![self.clone()], columns: 1 }.render(format)
     }
 
     /// The points that have a place on both axes, series by series, in order of x.

@@ -61,3 +61,28 @@ impl Marker {
         drawing.shapes.push(Shape::Polygon { points, fill, stroke: Some((outline, width)) });
     }
 }
+
+/// Series of more points are curves: a marker on each would hide them.
+const MANY: usize = 24;
+/// Pixels along a curve from one marker to the next.
+const SPACING: f64 = 170.0;
+
+/// The places of the markers of the i-th series: all, or of a curve some, its end among them, not the same for all series.
+pub(super) fn some_of(i: usize, places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    if places.len() <= MANY {
+        return places.to_vec();
+    }
+    // The golden ratio spreads the first markers of any number of series.
+    let mut left = SPACING * (0.618_034 * i as f64).fract();
+    let mut chosen = Vec::new();
+    for (k, at) in places.iter().enumerate() {
+        if k > 0 {
+            left -= (at[0] - places[k - 1][0]).hypot(at[1] - places[k - 1][1]);
+        }
+        if left <= 0.0 || k + 1 == places.len() {
+            chosen.push(*at);
+            left = SPACING;
+        }
+    }
+    chosen
+}
