@@ -4,6 +4,9 @@ use num_complex::Complex64;
 /// A step of the fit is cut to this: |c| < 1 keeps the disc a disc.
 const LONGEST_STEP: f64 = 0.5;
 
+/// How often a step is halved before the fit ends.
+const HALVINGS: i32 = 30;
+
 /// A Möbius map `z ↦ (a z + b)/(c z + d)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moebius([Complex64; 4]);
@@ -51,8 +54,8 @@ impl Moebius {
         let undetermined = MoebiusError::Undetermined { points: z.len().min(w.len()) };
         let sum = |map: &Moebius| z.iter().zip(w).map(|(&z, &w)| (map.at(z) - w).norm_sqr()).sum::<f64>();
         let (mut best, mut least) = (self, sum(&self));
-        // Quadratic where w = M(z) nearly; where not, a few more.
-        for _ in 0..100 {
+        // Quadratic near w = M(z); from far away a valley may have to be followed.
+        for _ in 0..1000 {
             let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
             for (&z, &w) in z.iter().zip(w) {
                 let z = best.at(z);
@@ -70,13 +73,15 @@ impl Moebius {
                 return Err(undetermined);
             }
             let step = step * (LONGEST_STEP / size).min(1.0);
-            let next = Moebius::of_disc(step[0], Complex64::new(step[1], step[2])).after(&best);
-            let value = sum(&next);
+            // From far away the whole step may lead uphill.
+            let shorter = (0..HALVINGS).map(|k| step * 0.5f64.powi(k)).find_map(|step| {
+                let next = Moebius::of_disc(step[0], Complex64::new(step[1], step[2])).after(&best);
+                let value = sum(&next);
+                (value < least).then_some((next, value))
+            });
             // At the minimum rounding alone is left.
-            if value >= least {
-                break;
-            }
-            (best, least) = (next, value);
+            let Some(lower) = shorter else { break };
+            (best, least) = lower;
         }
         Ok(best)
     }
