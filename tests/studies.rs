@@ -150,6 +150,7 @@ fn run(text: &str) -> (tempfile::TempDir, Config, Vec<Record>) {
         shard: Shard::ALL,
         results: folder.path(),
         threads: NonZeroUsize::MIN,
+        journal: None,
     };
     let mut records = Vec::new();
     let mut collect = |event: Event| {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use riemap::experiment::{Config, Event, Outcome, Record, Run};
 
-use super::plural;
+use super::{interrupt, plural};
 
 /// Characters of the living line; terminals are rarely narrower, and a line that wraps cannot be taken back.
 const WIDTH: usize = 79;
@@ -21,6 +21,9 @@ pub struct Display {
     /// What went wrong, one line each.
     pub complaints: Vec<String>,
     running: Vec<String>,
+    /// Runs that were finished before.
+    pub skipped: usize,
+    stopping: bool,
     live: bool,
     every_run: bool,
 }
@@ -37,6 +40,8 @@ impl Display {
             failed: 0,
             complaints: Vec::new(),
             running: Vec::new(),
+            skipped: 0,
+            stopping: false,
             live,
             every_run: !(live && stdout().is_terminal()),
         }
@@ -51,6 +56,10 @@ impl Display {
     pub fn show(&mut self, event: &Event, out: &mut dyn Write) -> io::Result<()> {
         self.clear();
         match event {
+            Event::Finished { config, run, record } => {
+                self.skipped += 1;
+                self.count(&name(config, run), record);
+            }
             Event::Begun { config, run } => self.running.push(name(config, run)),
             Event::Ended { config, run, record, seconds } => {
                 let name = name(config, run);
@@ -71,6 +80,11 @@ impl Display {
                 self.complaints.push(format!("{}: {causes}", config.name));
             }
             Event::Pulse => {}
+        }
+        if interrupt::requested() && !self.stopping {
+            self.stopping = true;
+            let running = plural(self.running.len(), "run", "runs");
+            writeln!(out, "stopping when {running} in progress have ended; Ctrl-C again stops at once")?;
         }
         self.draw();
         // Seen at once, also through a pipe.
@@ -94,7 +108,9 @@ impl Display {
     pub fn summary(&self) -> String {
         let runs = plural(self.ended(), "run", "runs");
         let mut text = format!("{runs} in {:.1} s: {} done", self.begun.elapsed().as_secs_f64(), self.done);
-        for (count, word) in [(self.refuted, "refuted"), (self.failed, "failed")] {
+        let others =
+            [(self.refuted, "refuted"), (self.failed, "failed"), (self.skipped, "finished before (--fresh: again)")];
+        for (count, word) in others {
             if count > 0 {
                 text.push_str(&format!(", {count} {word}"));
             }

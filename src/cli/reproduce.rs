@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use riemap::experiment::find_experiments;
+use riemap::experiment::{find_experiments, remove_stale};
 
 use super::run::{Options, absent, load, run_all};
 
@@ -38,6 +38,14 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     let configs = load(&paths, &arguments.options)?;
     for (config, data) in absent(&configs) {
         writeln!(out, "{} passed over: {data}", config.name)?;
+    }
+    // With other settings there may be fewer runs than the config has.
+    if arguments.options.set.is_empty() {
+        for config in &configs {
+            for record in remove_stale(config, &results)? {
+                writeln!(out, "{} removed: {} has no such run", record.display(), config.path)?;
+            }
+        }
     }
     run_all(&configs, &arguments.options, &results, out)
 }

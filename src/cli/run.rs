@@ -8,7 +8,7 @@ use std::thread::available_parallelism;
 use anyhow::{Result, bail};
 use clap::Args;
 
-use riemap::experiment::{Batch, Config, DataFile, Settings, Shard, data_folders};
+use riemap::experiment::{Batch, Config, DataFile, Journal, Settings, Shard, data_folders};
 
 use super::display::Display;
 use super::{interrupt, plural};
@@ -37,11 +37,16 @@ pub struct Options {
     /// Run only every n-th run, beginning with the i-th; results of all shards merge
     #[arg(long, value_name = "I/N", default_value = "1/1")]
     pub shard: Shard,
+    /// Make everything again where a former command was interrupted; by default what it finished is kept
+    #[arg(long)]
+    pub fresh: bool,
 }
 
 /// Ctrl-C.
 #[derive(Debug, thiserror::Error)]
-#[error("interrupted: {ended} of {total} runs are done")]
+#[error(
+    "interrupted: {ended} of {total} runs are finished; the same command goes on from there, with --fresh from the start"
+)]
 pub struct Interrupted {
     ended: usize,
     total: usize,
@@ -79,7 +84,11 @@ pub fn absent(configs: &[Config]) -> Vec<(&Config, &DataFile)> {
 pub fn run_all(configs: &[Config], options: &Options, results: &Path, out: &mut dyn Write) -> Result<()> {
     interrupt::listen();
     let threads = available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    let batch = Batch { configs, shard: options.shard, results, threads };
+    let journal = Journal::of_this_program(results)?;
+    if options.fresh {
+        journal.forget(configs, options.shard)?;
+    }
+    let batch = Batch { configs, shard: options.shard, results, threads, journal: Some(&journal) };
     let total = batch.runs().count();
     let mut display = Display::new(total);
     let (mut shown, unheard) = (Ok(()), AtomicBool::new(false));

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::pool::{Told, pool};
 use super::repository::revision;
 use super::run::{Ended, make, write};
-use super::{Config, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
+use super::{Config, Journal, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
 
 /// Experiments to be run together.
 pub struct Batch<'a> {
@@ -17,10 +17,21 @@ pub struct Batch<'a> {
     pub results: &'a Path,
     /// Runs made at the same time. What comes out does not depend on it.
     pub threads: NonZeroUsize,
+    /// What a former batch has finished, which is not made again, and where this one notes what it finishes.
+    pub journal: Option<&'a Journal>,
 }
 
 /// What a batch tells while it works.
 pub enum Event<'a> {
+    /// A run was finished before the interruption of a former batch.
+    Finished {
+        /// Its config.
+        config: &'a Config,
+        /// The run.
+        run: &'a Run,
+        /// What it left behind.
+        record: &'a Record,
+    },
     /// A run begins.
     Begun {
         /// Its config.
@@ -80,11 +91,12 @@ impl Batch<'_> {
     pub fn run(&self, stop: &(dyn Fn() -> bool + Sync), watch: &mut dyn FnMut(Event)) -> Result<(), ResultsError> {
         let mut versions = BTreeMap::from([("riemap".to_owned(), env!("CARGO_PKG_VERSION").to_owned())]);
         versions.extend(revision().map(|revision| ("revision".to_owned(), revision)));
-        let jobs = self.jobs();
+        let jobs = self.unfinished(watch);
+        let (mut unmade, mut unsummed) = (jobs.len(), 0);
         let mut left = vec![0; self.configs.len()];
         jobs.iter().for_each(|job| left[job.0] += 1);
         for (config, _) in self.configs.iter().zip(&left).filter(|(_, left)| **left == 0) {
-            self.sum_up(config, watch);
+            unsummed += usize::from(!self.sum_up(config, watch));
         }
         let (alone, together): (Vec<Job>, Vec<Job>) = jobs.into_iter().partition(|job| self.configs[job.0].alone);
         for (jobs, threads) in [(together, self.threads.get()), (alone, 1)] {
@@ -100,16 +112,33 @@ impl Batch<'_> {
                         let (config, run) = self.of(jobs[item]);
                         let Some(Ended { record, seconds, .. }) = ended? else { return Ok(()) };
                         watch(Event::Ended { config, run, record: &record, seconds });
+                        unmade -= 1;
                         left[jobs[item].0] -= 1;
                         if left[jobs[item].0] == 0 {
-                            self.sum_up(config, watch);
+                            unsummed += usize::from(!self.sum_up(config, watch));
                         }
                     }
                 }
                 Ok::<_, ResultsError>(())
             })?;
         }
-        Ok(())
+        match self.journal {
+            // Where a key of a plot is misspelt the runs need not be made again.
+            Some(journal) if unmade == 0 && unsummed == 0 => journal.forget(self.configs, self.shard),
+            _ => Ok(()),
+        }
+    }
+
+    /// What is to be made, after what is finished has been told.
+    fn unfinished(&self, watch: &mut dyn FnMut(Event)) -> Vec<Job> {
+        let mut jobs = self.jobs();
+        jobs.retain(|job| {
+            let (config, run) = self.of(*job);
+            let Some(record) = self.journal.and_then(|j| j.finished(self.results, config, run)) else { return true };
+            watch(Event::Finished { config, run, record: &record });
+            false
+        });
+        jobs
     }
 
     fn make(
@@ -124,15 +153,20 @@ impl Batch<'_> {
             return Ok(None);
         }
         write(self.results, config, run, &ended)?;
+        if let Some(journal) = self.journal {
+            journal.note(config, run)?;
+        }
         Ok(Some(ended))
     }
 
-    /// Nothing is made of nothing: data may not be here.
-    fn sum_up(&self, config: &Config, watch: &mut dyn FnMut(Event)) {
-        match summarise(config, self.results) {
+    /// Whether it could be done. Nothing is made of nothing: data may not be here.
+    fn sum_up(&self, config: &Config, watch: &mut dyn FnMut(Event)) -> bool {
+        let summary = summarise(config, self.results);
+        match &summary {
             Ok(summary) if summary.records.is_empty() => {}
-            Ok(summary) => watch(Event::Summed { config, summary: Ok(&summary) }),
-            Err(error) => watch(Event::Summed { config, summary: Err(&error) }),
+            Ok(summary) => watch(Event::Summed { config, summary: Ok(summary) }),
+            Err(error) => watch(Event::Summed { config, summary: Err(error) }),
         }
+        summary.is_ok()
     }
 }

@@ -245,6 +245,14 @@ pub enum ResultsError {
         /// The system's word.
         source: std::io::Error,
     },
+    /// No note of what is finished, so that an interrupted batch could not go on.
+    #[error("{}: it cannot be kept what is finished", path.display())]
+    Journal {
+        /// The file.
+        path: PathBuf,
+        /// The system's word.
+        source: std::io::Error,
+    },
     /// No thread to run an experiment on.
     #[error("no thread can be started")]
     Thread(#[from] std::io::Error),

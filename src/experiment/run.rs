@@ -1,6 +1,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::fs;
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -65,11 +66,21 @@ pub(super) fn remove_pictures<'n>(
 ) -> Result<(), ResultsError> {
     for name in names {
         let path = results.join("figures").join(name);
-        if Path::new(name).file_name().is_some_and(|file| file == name.as_str()) && path.is_file() {
-            fs::remove_file(&path).map_err(|source| ResultsError::Remove { path, source })?;
+        if Path::new(name).file_name().is_some_and(|file| file == name.as_str()) {
+            remove(&path)?;
         }
     }
     Ok(())
+}
+
+/// Removes a file, if it is still there.
+pub(super) fn remove(path: &Path) -> Result<(), ResultsError> {
+    match fs::remove_file(path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(ResultsError::Remove { path: path.to_owned(), source })
+        }
+        _ => Ok(()),
+    }
 }
 
 fn panic_message(panic: &(dyn Any + Send)) -> String {

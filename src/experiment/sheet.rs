@@ -26,7 +26,8 @@ impl Default for SheetSpec {
 const SMALL: u32 = 900;
 
 impl SheetSpec {
-    /// Makes both of what the records have; nothing while runs are missing.
+    /// Makes both of what the records have; nothing while runs are missing, or pictures of them: a clone has the records of
+    /// runs that cannot be made here for want of data, but not their pictures.
     ///
     /// # Errors
     /// Pictures that cannot be read or written.
@@ -39,7 +40,8 @@ impl SheetSpec {
         let made = |name: &str| records.iter().any(|record| record.run == name);
         let panels: Vec<PathBuf> =
             records.iter().filter_map(panel).map(|name| results.join("figures").join(name)).collect();
-        if !config.runs.iter().all(|run| made(&run.name)) || panels.is_empty() {
+        let complete = config.runs.iter().all(|run| made(&run.name)) && panels.iter().all(|path| path.is_file());
+        if !complete || panels.is_empty() {
             return Ok(Vec::new());
         }
         let read = |path: &PathBuf| fs::read(path).map_err(|source| ResultsError::Panel { path: path.clone(), source });

@@ -1,11 +1,12 @@
 use std::fmt::Write as _;
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::run::{extension, make_folder, stored, write_figure};
+use super::run::{extension, stored, write_figure};
 use super::{Config, Outcome, Record, ResultsError, fit, without};
-use crate::figure::Format;
+use crate::figure::{FigureError, Format};
 use crate::io::atomically;
 
 /// What has been made of the records of a config.
@@ -31,12 +32,18 @@ pub fn records(config: &Config, results: &Path) -> Vec<Record> {
 /// A key that no record has; a plot or file that cannot be made.
 pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsError> {
     let folder = results.join(&config.name);
+    // Of shards that end at the same time the last to read must be the last to write. Where the system has no such locks the
+    // last shard's table may want a line; any later run mends it.
+    let _lock = File::open(&folder).and_then(|folder| folder.lock().map(|()| folder));
     let records = records(config, results);
     if records.is_empty() {
         return Ok(Summary { records, files: Vec::new() });
     }
-    make_folder(&folder)?;
-    check_keys(config, &records)?;
+    let complete = there(config, &records) == config.runs.len();
+    // What is in no record yet may be in those of other shards.
+    if complete {
+        check_keys(config, &records)?;
+    }
     let mut files = Vec::new();
     for (name, timings) in [("table.md", false), ("timings.md", true)] {
         if let Some(text) = table(config, &records, timings) {
@@ -48,8 +55,13 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
     let finished = records.iter().any(|record| !record.result.is_null());
     for (name, spec) in config.plots.iter().filter(|_| finished) {
         for format in [Format::Png, Format::Svg] {
-            let failed = |source| ResultsError::Plot { config: config.path.clone(), plot: name.clone(), source };
-            let bytes = spec.plot(&records).render(format).map_err(failed)?;
+            let bytes = match spec.plot(&records).render(format) {
+                Err(FigureError::NoPoints) if !complete => continue,
+                Err(source) => {
+                    return Err(ResultsError::Plot { config: config.path.clone(), plot: name.clone(), source });
+                }
+                Ok(bytes) => bytes,
+            };
             files.push(write_figure(results, &format!("{}-{name}.{}", config.name, extension(format)), &bytes)?);
         }
     }
@@ -57,6 +69,11 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
         files.extend(sheet.make(config, &records, results)?);
     }
     Ok(Summary { records, files })
+}
+
+/// How many of the runs that are to be made have a record.
+fn there(config: &Config, records: &[Record]) -> usize {
+    config.runs.iter().filter(|run| records.iter().any(|record| record.run == run.name)).count()
 }
 
 /// A misspelt key must not become an empty column or plot. Without a single result there is nothing to check against.
@@ -99,8 +116,9 @@ pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<Strin
     if timings {
         text.push_str("Measured on the machine that made these results; they differ from run to run.\n\n");
     }
-    if records.len() < config.runs.len() {
-        let _ = writeln!(text, "{} of {} runs.\n", records.len(), config.runs.len());
+    let there = there(config, records);
+    if there < config.runs.len() {
+        let _ = writeln!(text, "{there} of {} runs.\n", config.runs.len());
     }
     let _ = writeln!(text, "| {} |\n|{}", headings.join(" | "), " --: |".repeat(headings.len()));
     for record in records {
