@@ -7,10 +7,12 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `document.rs` | TOML that knows its lines; setting dotted keys; errors with line and caret |
-//! | `config.rs` | [`Config`]: a file made into [`Run`]s; [`Shard`]s of them |
+//! | `config.rs`, `shard.rs` | [`Config`]: a file made into [`Run`]s; [`Shard`]s of them |
+//! | `surface.rs`, `data.rs` | `[surface]`; public files, and where they come from |
 //! | `expect.rs`, `without.rs` | bounds on results; runs that are not made |
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
-//! | `run.rs` | runs → records in a folder |
+//! | `run.rs`, `stale.rs` | one run → its record and pictures in a folder; those of runs that are no more |
+//! | `batch.rs`, `pool.rs`, `journal.rs` | [`Batch`]: runs in parallel; going on after an interruption |
 //! | `summary.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs`, `panels.rs` | exponents fitted to the series of plots; plots beside each other |
 //! | `convergence.rs` | iterations as records keep them; the plots that `[figures] convergence` asks for |
