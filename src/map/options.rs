@@ -60,14 +60,14 @@ pub enum Hold {
     Primal,
 }
 
-/// Whether a map that is not one-to-one, by the exact check, is replaced by one that is.
+/// Whether a convex combination map that rounding has folded is replaced by one with outward weights. Other maps are checked alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Valid {
-    /// A map that passes is left as it is; another is replaced. Not where an energy is given.
+    /// A map that passes the exact check is left as it is; another is replaced.
     #[default]
     Auto,
-    /// The same, and what replaces it has the lowest mean quasi-conformal error, whatever H is.
+    /// The same.
     BestQc,
     /// Never.
     Off,
@@ -98,7 +98,7 @@ pub struct MapOptions {
     pub hold: Option<Hold>,
     /// With a fixed boundary: the vertices inside are means of their neighbours by these weights, in place of the minimum of H.
     pub weights: Option<String>,
-    /// Whether a map that is not one-to-one is replaced.
+    /// Whether a convex combination map that is not one-to-one is replaced.
     pub valid: Valid,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper.
     pub fix: usize,

@@ -61,8 +61,8 @@ pub struct Arguments {
     /// `riemap list`
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EDGE_WEIGHTS.iter().map(|w| w.name)))]
     pub(super) weights: Option<String>,
-    /// A circle or free map that is not one-to-one, by the exact check, is replaced by one that is: auto (near H's
-    /// minimum), best-qc (lowest quasi-conformal error), off; off when --energy is given
+    /// With --weights: a map that rounding has folded is replaced by one with outward weights (auto, best-qc), or kept (off).
+    /// Other maps are checked, and kept as they are
     #[arg(long, default_value = "auto", value_parser = by_name::<Valid>)]
     pub(super) valid: Valid,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper [default: 3]
