@@ -1,6 +1,7 @@
 //! One file per command.
 
 mod display;
+mod index;
 mod info;
 mod interrupt;
 mod list;

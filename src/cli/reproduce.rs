@@ -1,11 +1,12 @@
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
 use riemap::experiment::{find_experiments, remove_stale};
 
+use super::index::{experiment_files, name, write_index};
 use super::run::{Options, absent, load, run_all};
 
 #[derive(Args)]
@@ -26,7 +27,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
          `riemap run CONFIG.toml`",
     )?;
     let experiments = root.join("experiments");
-    let mut paths = configs(&experiments)?;
+    let mut paths = experiment_files(&experiments)?;
     if !arguments.names.is_empty() {
         let known: Vec<String> = paths.iter().map(|path| name(path)).collect();
         if let Some(unknown) = arguments.names.iter().find(|name| !known.contains(name)) {
@@ -47,23 +48,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
             }
         }
     }
-    run_all(&configs, &arguments.options, &results, out)
-}
-
-fn configs(folder: &Path) -> Result<Vec<PathBuf>> {
-    let unreadable = || format!("{} cannot be read", folder.display());
-    let mut paths = Vec::new();
-    for entry in folder.read_dir().with_context(unreadable)? {
-        paths.push(entry.with_context(unreadable)?.path());
-    }
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    paths.sort();
-    if paths.is_empty() {
-        bail!("{} has no experiments: no file ends in .toml", folder.display());
-    }
-    Ok(paths)
-}
-
-fn name(path: &Path) -> String {
-    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    let outcome = run_all(&configs, &arguments.options, &results, out);
+    let written = write_index(configs, &arguments.options, &results, out);
+    outcome.and(written)
 }

@@ -11,6 +11,7 @@ use clap::Args;
 use riemap::experiment::{Batch, Config, DataFile, Journal, Settings, Shard, data_folders};
 
 use super::display::Display;
+use super::index::write_index;
 use super::{interrupt, plural};
 
 #[derive(Args)]
@@ -26,7 +27,7 @@ pub struct Arguments {
 }
 
 /// What `run` and `reproduce` have in common.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct Options {
     /// Set a key of all of them, for example map.dual=incentre; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
@@ -57,7 +58,9 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     if let Some((config, data)) = absent(&configs).first() {
         bail!("{}: {data}", config.path);
     }
-    run_all(&configs, &arguments.options, &arguments.results, out)
+    let outcome = run_all(&configs, &arguments.options, &arguments.results, out);
+    let written = write_index(configs, &arguments.options, &arguments.results, out);
+    outcome.and(written)
 }
 
 /// Reads experiments, all before the first is run.

@@ -2,7 +2,7 @@ use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 use super::RunError;
-use super::summary::number;
+use super::grid::number;
 use crate::figure::power_of_ten;
 
 /// A caption with places for what a run found: `{result.energy.total}` is the value at that dotted key, a number to four

@@ -3,8 +3,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::grid::number;
 use super::panels::above_lowest;
-use super::summary::number;
 use super::{FitSpec, Fitted, PanelSpec, Record};
 use crate::figure::{Axis, Panels, Plot, Reference, Series};
 

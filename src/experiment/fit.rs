@@ -1,11 +1,12 @@
 //! Exponents of power laws, fitted to series.
 
-use std::fmt::{self, Write as _};
+use std::fmt;
 
 use serde::de::value::{MapAccessDeserializer, StrDeserializer};
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use super::grid::Grid;
 use super::{Config, Record};
 
 /// `fit` of a series: the exponent of a power law through its last points, least squares over the logarithms of both
@@ -83,24 +84,22 @@ impl fmt::Display for Fitted {
     }
 }
 
-/// The exponents of all plots as Markdown, a table for each plot that asks for some; `timings`: of plots of times instead of
-/// the others. They follow the table of the records.
-pub(super) fn table(config: &Config, records: &[Record], timings: bool) -> String {
-    let mut text = String::new();
+/// The exponents of all plots, titled, a table for each plot that asks for some; `timings`: of plots of times instead of
+/// the others.
+pub(super) fn grids(config: &Config, records: &[Record], timings: bool) -> Vec<(String, Grid)> {
+    let mut grids = Vec::new();
     for (name, plot) in config.plots.iter().filter(|(_, plot)| plot.is_of_timings() == timings) {
         let fits = plot.fits(records);
         let Some(word) = fits.iter().find_map(|(_, fit)| Some(fit.as_ref()?.x.name())) else { continue };
         let title = if plot.title.is_empty() { name } else { &plot.title };
-        let _ = writeln!(text, "\n## {title}: fitted {word}s\n\n| series | {word} | points |\n| --: | --: | --: |");
-        for (series, fit) in fits {
-            let series = series.replace('|', "\\|");
-            let _ = match fit {
-                Some(fit) => writeln!(text, "| {series} | {:.3} | {} |", fit.exponent, fit.points),
-                None => writeln!(text, "| {series} | – | – |"),
-            };
-        }
+        let rows = fits.into_iter().map(|(series, fit)| match fit {
+            Some(fit) => vec![series, format!("{:.3}", fit.exponent), fit.points.to_string()],
+            None => vec![series, "–".to_owned(), "–".to_owned()],
+        });
+        let headings = ["series", word, "points"].map(str::to_owned).to_vec();
+        grids.push((format!("{title}: fitted {word}s"), Grid { headings, rows: rows.collect() }));
     }
-    text
+    grids
 }
 
 impl<'de> Deserialize<'de> for FitSpec {

@@ -13,7 +13,8 @@
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
 //! | `run.rs`, `stale.rs` | one run → its record and pictures in a folder; those of runs that are no more |
 //! | `batch.rs`, `pool.rs`, `journal.rs` | [`Batch`]: runs in parallel; going on after an interruption |
-//! | `summary.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
+//! | `page/` | everything → `index.html` |
+//! | `summary.rs`, `grid.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs`, `panels.rs` | exponents fitted to the series of plots; plots beside each other |
 //! | `convergence.rs` | iterations as records keep them; the plots that `[figures] convergence` asks for |
 //! | `map.rs`, `cotan.rs`, `normals.rs`, `peer.rs` | the kinds of experiment, rows of [`KINDS`] |
@@ -35,11 +36,13 @@ mod document;
 mod error;
 mod expect;
 mod fit;
+mod grid;
 mod journal;
 mod map;
 mod marks;
 mod model;
 mod normals;
+mod page;
 mod panels;
 mod peer;
 mod picture;
@@ -71,6 +74,7 @@ pub use fit::{Abscissa, FitSpec, Fitted};
 pub use journal::Journal;
 pub use marks::{Mark, Marks, Measure};
 pub use model::{ModelError, stage_model};
+pub use page::{page, write_page};
 pub use panels::PanelSpec;
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};

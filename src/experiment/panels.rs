@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::Record;
-use super::summary::number;
+use super::grid::number;
 use crate::figure::Series;
 
 /// `panels` of a plot: one for each combination of values that runs have at the keys.

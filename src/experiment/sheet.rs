@@ -60,7 +60,7 @@ impl SheetSpec {
 }
 
 /// The picture of a run that goes on the sheet: the one with a checkerboard, where there are several.
-fn panel(record: &Record) -> Option<&String> {
+pub(super) fn panel(record: &Record) -> Option<&String> {
     let pixels = || record.pictures.iter().filter(|name| name.ends_with(".png"));
     pixels().find(|name| name.ends_with("-checkerboard.png")).or_else(|| pixels().next())
 }

@@ -2,10 +2,8 @@ use std::fmt::Write as _;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use super::run::{extension, stored, write_figure};
-use super::{Config, Outcome, Record, ResultsError, fit, without};
+use super::{Config, Record, ResultsError, fit, grid, without};
 use crate::figure::{FigureError, Format};
 use crate::io::atomically;
 
@@ -97,17 +95,9 @@ fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
 /// The records as Markdown, and the exponents fitted to the series of plots; `timings`: what differs from run to run instead
 /// of the rest. `None` if there is nothing of that.
 pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<String> {
-    let is_timing = |key: &str| key.starts_with("timings.");
-    let columns: Vec<_> = config.columns.iter().filter(|column| is_timing(&column.key) == timings).collect();
-    let fits = fit::table(config, records, timings);
-    if columns.is_empty() && fits.is_empty() && timings {
+    let (grid, fits) = (grid::of_records(config, records, timings), fit::grids(config, records, timings));
+    if grid.is_none() && fits.is_empty() {
         return None;
-    }
-    let heading = |key: &String| key.rsplit('.').next().unwrap_or(key).to_owned();
-    let mut headings: Vec<String> = config.swept.iter().map(heading).collect();
-    headings.extend(columns.iter().map(|column| column.label.clone()));
-    if !timings {
-        headings.push("outcome".to_owned());
     }
     let mut text = format!("# {}\n\n", config.title);
     if !config.claim.is_empty() {
@@ -120,44 +110,12 @@ pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<Strin
     if there < config.runs.len() {
         let _ = writeln!(text, "{there} of {} runs.\n", config.runs.len());
     }
-    let _ = writeln!(text, "| {} |\n|{}", headings.join(" | "), " --: |".repeat(headings.len()));
-    for record in records {
-        let keys = config.swept.iter().map(|key| format!("config.{key}"));
-        let keys = keys.chain(columns.iter().map(|column| column.key.clone()));
-        let mut cells: Vec<String> =
-            keys.map(|key| record.get(&key).as_ref().map(number).unwrap_or_default()).collect();
-        if !timings {
-            cells.push(match (&record.outcome, &record.error) {
-                (Outcome::Done, _) => "done".to_owned(),
-                (outcome, error) => format!("{outcome:?}: {}", error.as_deref().unwrap_or_default()).to_lowercase(),
-            });
-        }
-        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|").replace('\n', " ")).collect();
-        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    text.push_str(&grid.map(|grid| grid.markdown()).unwrap_or_default());
+    for sentence in without::sentences(&config.without) {
+        let _ = writeln!(text, "\n{sentence}");
     }
-    text.push_str(&without::note(&config.without));
-    text.push_str(&fits);
+    for (title, grid) in fits {
+        let _ = write!(text, "\n## {title}\n\n{}", grid.markdown());
+    }
     Some(text)
-}
-
-/// Numbers to four digits, everything else as it is.
-pub(super) fn number(value: &Value) -> String {
-    match value {
-        Value::Null => "–".to_owned(),
-        Value::String(text) => text.clone(),
-        Value::Number(n) if n.is_f64() => four_digits(n.as_f64().unwrap_or(f64::NAN)),
-        other => other.to_string(),
-    }
-}
-
-fn four_digits(x: f64) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    if !(1e-3..1e5).contains(&x.abs()) {
-        return format!("{x:.2e}");
-    }
-    let decimals = (3 - x.abs().log10().floor() as i32).max(0) as usize;
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

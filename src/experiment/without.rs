@@ -1,11 +1,10 @@
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 use serde::Deserialize;
 use serde_json::Value;
 
 use super::chart::matches;
-use super::summary::number;
+use super::grid::number;
 
 /// `[[without]]`: runs of the sweep that are not made, and why; the table of the experiment says so too.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -25,17 +24,16 @@ impl Without {
     }
 }
 
-/// What is left out, as Markdown below the table.
-pub(super) fn note(without: &[Without]) -> String {
-    let mut text = String::new();
-    for Without { runs, because } in without {
-        let name = |key: &String| key.rsplit('.').next().unwrap_or(key).to_owned();
-        let value = |value: &Value| match value {
-            Value::Array(any) => any.iter().map(number).collect::<Vec<_>>().join(" or "),
-            one => number(one),
-        };
+/// What is left out, a sentence each.
+pub(super) fn sentences(without: &[Without]) -> Vec<String> {
+    let name = |key: &String| key.rsplit('.').next().unwrap_or(key).to_owned();
+    let value = |value: &Value| match value {
+        Value::Array(any) => any.iter().map(number).collect::<Vec<_>>().join(" or "),
+        one => number(one),
+    };
+    let sentence = |Without { runs, because }: &Without| {
         let which: Vec<String> = runs.iter().map(|(key, v)| format!("{} {}", name(key), value(v))).collect();
-        let _ = writeln!(text, "\nLeft out: {}: {because}", which.join(", "));
-    }
-    text
+        format!("Left out: {}: {because}", which.join(", "))
+    };
+    without.iter().map(sentence).collect()
 }

@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""Two folders of results hold the same numbers: every record but for timings and versions, every table but for those of times,
+every picture of a run, byte for byte.
+
+usage: tests/same_numbers.py RESULTS OTHER-RESULTS
+"""
+
+import json
+import sys
+from pathlib import Path
+
+
+def contents(results: Path) -> dict[str, object]:
+    """What must be the same, by name."""
+    found: dict[str, object] = {}
+    for path in sorted(results.glob("*/*.json")):
+        record = json.loads(path.read_text())
+        if not {"experiment", "run", "timings", "versions"} <= record.keys():
+            continue
+        for name in record["pictures"]:
+            found[f"figures/{name}"] = (results / "figures" / name).read_bytes()
+        del record["timings"], record["versions"]
+        # As text, for a NaN is no more itself than -0 is 0.
+        found[str(path.relative_to(results))] = json.dumps(record, sort_keys=True)
+    for path in results.glob("*/table.md"):
+        found[str(path.relative_to(results))] = path.read_bytes()
+    return found
+
+
+def main() -> None:
+    one, two = (contents(Path(folder)) for folder in sys.argv[1:])
+    different = sorted(name for name in one.keys() | two.keys() if one.get(name) != two.get(name))
+    for name in different[:20]:
+        missing = [folder for folder, found in zip(sys.argv[1:], (one, two)) if name not in found]
+        print(f"{name}: " + (f"not in {missing[0]}" if missing else "differs"))
+    records = sum(name.endswith(".json") for name in one)
+    print(f"{records} records, {len(one) - records} tables and pictures, {len(different)} different")
+    if different or records == 0:
+        sys.exit(1)
+
+
+main()
