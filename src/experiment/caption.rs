@@ -6,7 +6,8 @@ use super::grid::number;
 use crate::figure::power_of_ten;
 
 /// A caption with places for what a run found: `{result.energy.total}` is the value at that dotted key, a number to four
-/// digits; `{result.distortion.quasi_conformal.max - 1}` how much it exceeds 1. What stands in `[ ]` is left out where one of the keys in it has no value.
+/// digits; `{result.distortion.quasi_conformal.max - 1}` how much it exceeds 1; `{+result.rho.im}` has its sign written apart;
+/// `{result.periods.tau.1}` the second part of an array. What stands in `[ ]` is left out where one of the keys in it has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Caption {
     parts: Vec<Part>,
@@ -15,10 +16,20 @@ pub struct Caption {
 #[derive(Clone, Debug, PartialEq)]
 enum Part {
     Text(String),
-    /// A key, and what is subtracted from its value.
-    Value(String, f64),
+    /// The value of a key.
+    Value(Place),
     /// In brackets.
     Optional(Vec<Part>),
+}
+
+/// Where a value stands.
+#[derive(Clone, Debug, PartialEq)]
+struct Place {
+    key: String,
+    /// What is subtracted from it.
+    less: f64,
+    /// Whether its sign is written in any case, apart.
+    signed: bool,
 }
 
 /// Braces or brackets that do not match.
@@ -50,13 +61,15 @@ impl Caption {
                 '{' => {
                     let end = after.find('}').ok_or(CaptionError::Unmatched('{'))?;
                     let no_key = || CaptionError::NoKey(after[..end].to_owned());
-                    let (key, less) = after[..end].split_once(" - ").unwrap_or((&after[..end], "0"));
+                    let (signed, inner) =
+                        after[..end].strip_prefix('+').map_or((false, &after[..end]), |key| (true, key));
+                    let (key, less) = inner.split_once(" - ").unwrap_or((inner, "0"));
                     let less: f64 = less.parse().map_err(|_| no_key())?;
                     let plain = |c: char| c.is_alphanumeric() || "._-".contains(c);
                     if key.is_empty() || !key.chars().all(plain) || !less.is_finite() {
                         return Err(no_key());
                     }
-                    parts.push(Part::Value(key.to_owned(), less));
+                    parts.push(Part::Value(Place { key: key.to_owned(), less, signed }));
                     rest = &after[end + 1..];
                 }
                 '[' if outer.is_none() => outer = Some(std::mem::take(&mut parts)),
@@ -90,12 +103,17 @@ fn fill(parts: &[Part], values: &Value, required: bool) -> Result<Option<String>
         match part {
             Part::Text(words) => text.push_str(words),
             Part::Optional(inner) => text.push_str(&fill(inner, values, false)?.unwrap_or_default()),
-            Part::Value(key, less) => match lookup(values, key)? {
+            Part::Value(Place { key, less, signed }) => match lookup(values, key)? {
                 Value::Null if !required => return Ok(None),
                 Value::Null => return Err(RunError::CaptionValue { key: key.clone() }),
                 value => {
                     let difference = value.as_f64().filter(|_| *less != 0.0).map(|x| Value::from(x - less));
-                    text.push_str(&power_of_ten(&number(difference.as_ref().unwrap_or(value))));
+                    let number = printed(difference.as_ref().unwrap_or(value));
+                    match number.strip_prefix('−') {
+                        _ if !signed => text.push_str(&number),
+                        Some(digits) => text.push_str(&format!("− {digits}")),
+                        None => text.push_str(&format!("+ {number}")),
+                    }
                 }
             },
         }
@@ -103,10 +121,37 @@ fn fill(parts: &[Part], values: &Value, required: bool) -> Result<Option<String>
     Ok(Some(text))
 }
 
+/// As in tables, but for what print can do better: powers of ten are raised, zeros stay where they say how far a number was
+/// rounded (1.000 is not 1), and the energy Lb is called L'.
+fn printed(value: &Value) -> String {
+    let text = number(value);
+    match value {
+        Value::String(words) => {
+            words.split(' ').map(|w| if w == "Lb" { "L'" } else { w }).collect::<Vec<_>>().join(" ")
+        }
+        Value::Number(n) if n.is_f64() && !text.contains('e') => {
+            let x = n.as_f64().unwrap_or(f64::NAN);
+            // Text of four digits that is the number itself was not rounded.
+            if text.parse() == Ok(x) {
+                return text.replace('-', "−");
+            }
+            let decimals = (3.0 - x.abs().log10().floor()).max(0.0) as usize;
+            format!("{x:.decimals$}").replace('-', "−")
+        }
+        _ => power_of_ten(&text),
+    }
+}
+
+/// The value at a dotted key; that of what has no value is none. Parts of arrays are numbered from 0.
 fn lookup<'a>(values: &'a Value, key: &str) -> Result<&'a Value, RunError> {
     let mut value = values;
     for (i, name) in key.split('.').enumerate() {
-        let Some(inner) = value.get(name) else {
+        let inner = match value {
+            Value::Null => return Ok(value),
+            Value::Array(parts) => name.parse::<usize>().ok().and_then(|k| parts.get(k)),
+            _ => value.get(name),
+        };
+        let Some(inner) = inner else {
             let known = value.as_object().map(|fields| fields.keys().cloned().collect::<Vec<_>>().join(", "));
             let at = key.split('.').take(i).collect::<Vec<_>>().join(".");
             return Err(RunError::CaptionKey { key: key.to_owned(), at, known: known.unwrap_or_default() });
@@ -128,7 +173,7 @@ mod tests {
     use serde_json::json;
 
     fn filled(template: &str) -> Result<String, RunError> {
-        let values = json!({"result": {"E": 2.5e-26, "C": null, "name": "quad", "faces": 12, "x": 1.5}});
+        let values = json!({"result": {"E": 2.5e-26, "C": null, "name": "quad", "faces": 12, "x": 1.5, "tau": [0, 2], "y": 1.0001, "minus": -0.25, "L": "H + 0.5 Lb"}});
         Caption::parse(template).unwrap().filled(&values)
     }
 
@@ -140,6 +185,9 @@ mod tests {
             filled("1.5 - 1 = {result.x - 1}, 12 - 2 = {result.faces - 2}").unwrap(),
             "1.5 - 1 = 0.5, 12 - 2 = 10"
         );
+        assert_eq!(filled("{result.y} is not {result.y - 0.0001}, {result.L}").unwrap(), "1.000 is not 1, H + 0.5 L'");
+        assert_eq!(filled("[{result.C.re}, ]{result.tau.1} i").unwrap(), "2 i");
+        assert_eq!(filled("{result.x} {+result.minus} i {+result.x}").unwrap(), "1.5 − 0.25 i + 1.5");
         assert_eq!(filled("").unwrap(), "");
     }
 

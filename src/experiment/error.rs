@@ -2,6 +2,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use super::DataFile;
+use super::DiagramError;
 use crate::figure::FigureError;
 use crate::input::InputError;
 use crate::io::WriteError;
@@ -202,6 +203,9 @@ pub enum RunError {
     /// No libigl.
     #[error(transparent)]
     Libigl(#[from] LibiglError),
+    /// No diagram.
+    #[error(transparent)]
+    Diagram(#[from] DiagramError),
     /// No picture.
     #[error(transparent)]
     Figure(#[from] FigureError),

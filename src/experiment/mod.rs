@@ -32,6 +32,7 @@ mod config;
 mod convergence;
 mod cotan;
 mod data;
+mod diagram;
 mod document;
 mod error;
 mod expect;
@@ -67,6 +68,7 @@ pub use chart::{AxisSpec, PlotSpec, ReferenceSpec, SeriesSpec};
 pub use config::{Column, Config, Run, Settings};
 pub use convergence::{Convergence, ConvergenceX, ConvergenceY, trace};
 pub use data::{DataFile, Origin, data_folders};
+pub use diagram::DiagramError;
 pub use document::Document;
 pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::Bound;
@@ -138,4 +140,5 @@ pub struct Picture {
 }
 
 /// Every kind of experiment; the first is the default.
-pub static KINDS: &[&dyn Kind] = &[&map::MapKind, &cotan::CotanKind, &normals::NormalsKind, &peer::PeerKind];
+pub static KINDS: &[&dyn Kind] =
+    &[&map::MapKind, &cotan::CotanKind, &normals::NormalsKind, &peer::PeerKind, &diagram::DiagramKind];

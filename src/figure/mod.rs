@@ -14,6 +14,7 @@
 //! | `plot*.rs` | [`Plot`]: series of points on linear or logarithmic axes, laid out by plotters on a `Drawing` |
 //! | `view/` | [`SurfaceView`]: a surface in space, shaded, with a checkerboard on it |
 //! | `pair.rs` | [`Pair`]: a map and its surface side by side |
+//! | `diagram.rs` | [`Diagram`]: points, lines and labels that explain |
 //! | `sheet.rs`, `palette.rs` | finished pictures on one sheet; small copies in 256 colours |
 //! | `raster.rs` | polygons → pixels by supersampling; PNG |
 //! | `text.rs`, `style.rs` | the embedded font; colours and sizes that all figures share |
@@ -39,6 +40,7 @@
 
 mod bar;
 mod colour;
+mod diagram;
 mod drawing;
 mod flat;
 mod frame;
@@ -62,6 +64,7 @@ mod view;
 use std::path::{Path, PathBuf};
 
 pub use colour::{Colour, error_colour};
+pub use diagram::{Diagram, Form, Item, LineStyle, Panel};
 pub use flat::FlatMap;
 pub use pair::Pair;
 pub use plot::{Axis, Panels, Plot, Reference, Series};
@@ -302,6 +305,22 @@ pub enum FigureError {
     /// A sheet of nothing.
     #[error("there is no picture to put on the sheet")]
     NoPanels,
+    /// A place in a diagram that is NaN or infinite.
+    #[error("a place in the panel `{title}` is ({x}, {y}), which is no point of the plane")]
+    PanelPoint {
+        /// Title of the panel.
+        title: String,
+        /// Its first coordinate.
+        x: f64,
+        /// Its second coordinate.
+        y: f64,
+    },
+    /// A panel in which all is at one place, or nothing is.
+    #[error("the panel `{title}` has no extent to draw")]
+    PanelExtent {
+        /// Its title.
+        title: String,
+    },
     /// A PNG file of another kind than figures are.
     #[error("the picture is no PNG of 8-bit RGB, as figures are")]
     Panel,
