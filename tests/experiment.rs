@@ -306,7 +306,7 @@ fn a_checkerboard_is_drawn_beside_the_flat_map_under_a_name_of_its_own() {
         assert!(folder.path().join("figures").join(picture).is_file(), "{picture}");
     }
     assert_refused(&format!("{PLANE}[figures]\ncheckerboard = {{ squares = -1 }}\n"), &[], &["study.toml:4", "-1"]);
-    assert_refused(&format!("{PLANE}[figures]\ncheckerboard = {{ side = 8 }}\n"), &[], &["study.toml:4", "squares"]);
+    assert_refused(&format!("{PLANE}[figures]\ncheckerboard = {{ length = 8 }}\n"), &[], &["study.toml:4", "squares"]);
 }
 
 #[test]
