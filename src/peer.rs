@@ -10,7 +10,7 @@ use crate::backend::Observer;
 use crate::constraint::{Fixed, spread_points};
 use crate::input::Input;
 use crate::libigl::{Environment, LibiglError, harmonic, lscm};
-use crate::map::{Boundary, Domain, Map, MapError, MapOptions, Mapped, Outcome, run};
+use crate::map::{Boundary, Domain, Map, MapError, MapOptions, Mapped, run};
 
 /// A function of another program.
 pub struct Peer {
@@ -111,34 +111,14 @@ impl Peer {
         let triangles: Vec<[u32; 3]> = disc.faces.iter().filter_map(|t| t.try_into().ok()).collect();
         let request = Request { positions: &disc.positions, triangles: &triangles, held: &held, places: &places };
         let Answer { uv, seconds_cpu } = (self.call)(libigl, &request)?;
-        let mut z: Vec<Complex64> = uv.iter().map(|&[x, y]| Complex64::new(x, y)).collect();
-        let barycentres: Vec<Complex64> =
-            triangles.iter().map(|t| t.iter().map(|&v| z[v as usize]).sum::<Complex64>() / 3.0).collect();
-        let next = disc.boundary.iter().cycle().skip(1);
-        let midpoints: Vec<Complex64> =
-            disc.boundary.iter().zip(next).map(|(&v, &w)| (z[v as usize] + z[w as usize]) / 2.0).collect();
-        z.extend(barycentres);
-        z.extend(midpoints);
         let mut fixed = Fixed::default();
         for (&v, &[x, y]) in held.iter().zip(&places) {
             fixed.hold(v, Complex64::new(x, y));
         }
-        let map = Map {
-            z,
-            fixed,
-            total: None,
-            energies: Vec::new(),
-            gradient_norm: None,
-            backend: self.name,
-            outcome: Outcome::Solved,
-            iterations: 0,
-            residual: None,
-            smallest_singular_value: None,
-            on_circle: self.on_circle,
-            anchored: false,
-            exactly: None,
-            repaired: false,
-        };
+        let z = uv.iter().map(|&[x, y]| Complex64::new(x, y)).collect();
+        // What is held is vertices of the mesh: the boundary's dual vertices go to the edges of the image.
+        let z = mapped.domain.with_dual_vertices(z, &fixed);
+        let map = Map { on_circle: self.on_circle, ..Map::solved(self.name, z, fixed, None) };
         Ok((mapped.with(map), seconds_cpu))
     }
 }

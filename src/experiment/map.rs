@@ -106,22 +106,12 @@ impl Task for MapTask {
         let input = self.surface.open()?;
         let mapped = map::run(&input, &self.options, &mut watch)?;
         let seconds = watch.seconds();
-        let mut result = serde_json::to_value(Report::new(&input, &mapped, seconds))?;
-        // Timings have a place of their own in the record.
-        if let Some(solver) = result.get_mut("solver").and_then(Value::as_object_mut) {
-            solver.remove("seconds");
-        }
+        let mut result = untimed(Report::new(&input, &mapped, seconds))?;
         let mut timings = serde_json::to_value(seconds)?;
         if traced {
             let (numbers, times) = trace(watch.trace(), mapped.map.total);
             result["trace"] = numbers;
             timings["trace"] = times;
-        }
-        // The walks along the mesh are as long as it is wide; their lengths remain.
-        for walk in result.pointer_mut("/periods/loops").and_then(Value::as_array_mut).into_iter().flatten() {
-            if let Some(walk) = walk.as_object_mut() {
-                walk.remove("vertices");
-            }
         }
         let marks = self.figures.mark.map(|mark| Marks::of(&mapped, &maps(&mapped), mark));
         if let (Some(marks), Some(fields)) = (&marks, result.as_object_mut()) {
@@ -130,6 +120,21 @@ impl Task for MapTask {
         let pictures = self.pictures(&input, &mapped, marks.as_ref(), &result)?;
         Ok(Yield { result, timings, pictures, ..Yield::default() })
     }
+}
+
+/// A report as records have it: without times, which have a place of their own there, and without the walks along the mesh, which are
+/// as long as it is wide; their lengths remain.
+pub(super) fn untimed(report: Report) -> Result<Value, serde_json::Error> {
+    let mut result = serde_json::to_value(report)?;
+    if let Some(solver) = result.get_mut("solver").and_then(Value::as_object_mut) {
+        solver.remove("seconds");
+    }
+    for walk in result.pointer_mut("/periods/loops").and_then(Value::as_array_mut).into_iter().flatten() {
+        if let Some(walk) = walk.as_object_mut() {
+            walk.remove("vertices");
+        }
+    }
+    Ok(result)
 }
 
 impl MapTask {

@@ -2,14 +2,15 @@ use std::collections::BTreeMap;
 
 use num_complex::Complex64;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
+use super::map::untimed;
 use super::surface::SurfaceSpec;
 use super::{ConfigError, Document, Kind, RunError, Task, Yield};
 use crate::constraint::spread_points;
 use crate::energy::conformal::Weight;
 use crate::libigl::{Environment, Settings};
-use crate::map::{self, MapOptions, Mapped};
+use crate::map::{self, MapError, MapOptions, Mapped};
 use crate::peer::{Moebius, PEERS, peer};
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::report::{ErrorRecord, Report};
@@ -82,7 +83,7 @@ impl Task for PeerTask {
                 let mut options = self.options.clone();
                 let mut mapped = map::run(&input, &options, &mut watch);
                 // Integral weights do not exist where Re ρ ≤ 0, as circumcentres make it; the paper's do. The record says so.
-                if let (Err(_), Weight::Integral) = (&mapped, options.weight) {
+                if let (Err(MapError::NonPositiveRho(_)), Weight::Integral) = (&mapped, options.weight) {
                     options.weight = Weight::Unit;
                     mapped = map::run(&input, &options, &mut watch);
                 }
@@ -90,10 +91,7 @@ impl Task for PeerTask {
                 (mapped?, Some(options.weight), seconds.assemble + seconds.factor + seconds.solve)
             }
         };
-        let mut result = serde_json::to_value(Report::new(&input, &mapped, watch.seconds()))?;
-        if let Some(solver) = result.get_mut("solver").and_then(Value::as_object_mut) {
-            solver.remove("seconds");
-        }
+        let mut result = untimed(Report::new(&input, &mapped, watch.seconds()))?;
         result["weight"] = json!(weight);
         if let Some(exact) = input.exact.as_ref().filter(|_| mapped.map.on_circle) {
             let [error, aligned] = errors(exact, mapped)?;

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
+use super::{Boundary, Domain, Map, MapError, MapOptions, Valid};
 use crate::backend::Observer;
 use crate::backend::convex::{ConvexSolution, Towards, convex_map, edge_weights, outward};
 use crate::constraint::Fixed;
@@ -36,20 +36,10 @@ impl MapOptions {
         let z = domain.with_dual_vertices(solution.z, &fixed);
         let h = conformal::weights(&domain.graph, self.weight).ok().map(|w| conformal::value(&domain.graph, &w, &z));
         Ok(Map {
-            total: h,
-            energies: h.map(|h| ("H", h)).into_iter().collect(),
-            gradient_norm: None,
-            z,
-            fixed,
-            backend,
-            outcome: Outcome::Solved,
-            iterations: 0,
             residual: Some(solution.residual),
-            smallest_singular_value: None,
             on_circle: self.fixed_on_circle(),
-            anchored: false,
-            exactly: None,
             repaired: backend != row.name,
+            ..Map::solved(backend, z, fixed, h)
         })
     }
 }
@@ -86,7 +76,7 @@ impl Domain {
 
     /// A map of the mesh's vertices made one of the quad graph's: dual vertices at the middle of their faces, those on the boundary where
     /// `fixed` has them, or on their edges.
-    pub(super) fn with_dual_vertices(&self, mut z: Vec<Complex64>, fixed: &Fixed) -> Vec<Complex64> {
+    pub(crate) fn with_dual_vertices(&self, mut z: Vec<Complex64>, fixed: &Fixed) -> Vec<Complex64> {
         let graph = &self.graph;
         if graph.primal == graph.vertices {
             return z;

@@ -1,4 +1,4 @@
-use super::{Map, MapError, MapOptions, Outcome};
+use super::{Map, MapError, MapOptions};
 use crate::backend::{Observer, solve_linear};
 use crate::constraint::Fixed;
 use crate::energy::conformal;
@@ -21,20 +21,10 @@ impl MapOptions {
         });
         let total = weights.map(|w| conformal::value(graph, &w, &solution.z));
         Ok(Map {
-            total,
-            energies: total.map(|h| ("H", h)).into_iter().collect(),
             gradient_norm,
-            z: solution.z,
-            fixed,
-            backend: solution.backend,
-            outcome: Outcome::Solved,
-            iterations: 0,
             residual: Some(solution.residual),
-            smallest_singular_value: None,
             on_circle: self.fixed_on_circle(),
-            anchored: false,
-            exactly: None,
-            repaired: false,
+            ..Map::solved(solution.backend, solution.z, fixed, total)
         })
     }
 }

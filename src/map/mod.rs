@@ -89,6 +89,28 @@ pub struct Map {
     pub repaired: bool,
 }
 
+impl Map {
+    /// The map z of a direct solver, H its only energy where `h` is known; nothing else is said of it.
+    pub(crate) fn solved(backend: &'static str, z: Vec<Complex64>, fixed: Fixed, h: Option<f64>) -> Map {
+        Map {
+            z,
+            fixed,
+            total: h,
+            energies: h.map(|h| ("H", h)).into_iter().collect(),
+            gradient_norm: None,
+            backend,
+            outcome: Outcome::Solved,
+            iterations: 0,
+            residual: None,
+            smallest_singular_value: None,
+            on_circle: false,
+            anchored: false,
+            exactly: None,
+            repaired: false,
+        }
+    }
+}
+
 /// A surface and its map, with everything in between that a report or a figure needs.
 #[derive(Clone, Debug)]
 pub struct Mapped {

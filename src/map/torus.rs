@@ -1,4 +1,4 @@
-use super::{Domain, Map, MapError, MapOptions, Outcome};
+use super::{Domain, Map, MapError, MapOptions};
 use crate::backend::Observer;
 use crate::constraint::Fixed;
 use crate::periodic::{PeriodicMap, periodic};
@@ -32,20 +32,8 @@ impl MapOptions {
     pub(super) fn periodic(&self, domain: &Domain, watch: &mut dyn Observer) -> Result<(Map, PeriodicMap), MapError> {
         let torus = periodic(&domain.disc, &domain.graph, self.weight, watch)?;
         let map = Map {
-            z: torus.z.clone(),
-            fixed: Fixed::default(),
-            total: Some(torus.h),
-            energies: vec![("H", torus.h)],
-            gradient_norm: None,
-            backend: torus.backend,
-            outcome: Outcome::Solved,
-            iterations: 0,
             residual: Some(torus.residual),
-            smallest_singular_value: None,
-            on_circle: false,
-            anchored: false,
-            exactly: None,
-            repaired: false,
+            ..Map::solved(torus.backend, torus.z.clone(), Fixed::default(), Some(torus.h))
         };
         Ok((map, torus))
     }
