@@ -83,7 +83,7 @@ impl Task for PeerTask {
                 let mut options = self.options.clone();
                 let mut mapped = map::run(&input, &options, &mut watch);
                 // Integral weights do not exist where Re ρ ≤ 0, as circumcentres make it; the paper's do. The record says so.
-                if let (Err(MapError::NonPositiveRho(_)), Weight::Integral) = (&mapped, options.weight) {
+                if mapped.as_ref().is_err_and(MapError::is_of_integral_weights) {
                     options.weight = Weight::Unit;
                     mapped = map::run(&input, &options, &mut watch);
                 }

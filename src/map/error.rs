@@ -1,6 +1,6 @@
 use crate::backend::convex::ConvexError;
 use crate::backend::reduced::Unreduced;
-use crate::backend::{MinimiseError, SolveError};
+use crate::backend::{MinimiseError, SolveError, Unsuitable};
 use crate::constraint::ConstraintError;
 use crate::energy::conformal::NonPositiveRho;
 use crate::periodic::PeriodicError;
@@ -188,4 +188,15 @@ pub enum MapError {
         /// What was asked for.
         tolerance: f64,
     },
+}
+
+impl MapError {
+    /// Whether nothing stands against the map but integral weights, which are undefined where Re ρ ≤ 0, whichever backend met that.
+    pub fn is_of_integral_weights(&self) -> bool {
+        match self {
+            MapError::NonPositiveRho(_) | MapError::Reduced(Unreduced::NonPositiveRho(_)) => true,
+            MapError::Solve(SolveError::Unsuitable { reason, .. }) => matches!(reason, Unsuitable::NonPositiveRho(_)),
+            _ => false,
+        }
+    }
 }
