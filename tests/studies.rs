@@ -123,6 +123,27 @@ fn only_takes_a_value_or_a_list_of_them() {
 }
 
 #[test]
+fn a_series_has_runs_of_its_own_and_panels_share_names_without_exponents() {
+    let config = plot(
+        "series = [{ y = \"result.y\", label = \"b\", only = { \"config.kind\" = \"b\" } }, \
+         { y = \"result.y\", label = \"all\" }]\n",
+    );
+    let panels = spec(&config).plot(&records());
+    let points: Vec<usize> = panels.plots[0].series.iter().map(|series| series.points.len()).collect();
+    assert_eq!(points, [4, 8]);
+    let series = "series = [{ y = \"result.y\", label = \"y\", fit = \"cells\" }]\n";
+    let config = plot(&format!("{series}panels = {{ columns = [\"config.kind\"] }}\n"));
+    let panels = spec(&config).plot(&records());
+    assert_eq!(panels.columns, 2);
+    assert!(panels.plots.iter().all(|plot| plot.series[0].label == "y"));
+    let fits = spec(&config).fits(&records());
+    let exponents: Vec<(&str, f64)> = fits.iter().map(|(name, fit)| (name.as_str(), fit.unwrap().exponent)).collect();
+    assert!(exponents[0].0 == "a: y" && exponents[1].0 == "b: y", "{exponents:?}");
+    // Rounding of logarithms.
+    assert!((exponents[0].1 - 2.0).abs() < 1e-13 && (exponents[1].1 + 1.0).abs() < 1e-13, "{exponents:?}");
+}
+
+#[test]
 fn a_plot_that_contradicts_itself_is_refused_at_its_line() {
     let linear = "x = { key = \"config.n\", label = \"n\", log = true }\ny = { label = \"y\" }\n";
     let series = |fit: &str| format!("series = [{{ y = \"result.y\", label = \"y\", fit = {fit} }}]\n");

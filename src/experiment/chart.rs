@@ -59,6 +59,9 @@ pub struct SeriesSpec {
     pub by: Option<String>,
     /// Name in the legend; `{}` stands for the value of `by`.
     pub label: String,
+    /// As that of the plot, for this series alone.
+    #[serde(default)]
+    pub only: BTreeMap<String, Value>,
     /// Whether its points are not joined.
     #[serde(default)]
     pub cloud: bool,
@@ -81,7 +84,7 @@ pub struct ReferenceSpec {
 impl PlotSpec {
     /// Every dotted key that the plot reads.
     pub fn keys(&self) -> impl Iterator<Item = &String> {
-        let series = self.series.iter().flat_map(|s| std::iter::once(&s.y).chain(&s.by));
+        let series = self.series.iter().flat_map(|s| std::iter::once(&s.y).chain(&s.by).chain(s.only.keys()));
         self.x.key.iter().chain(series).chain(self.only.keys()).chain(self.panels.keys())
     }
 
@@ -108,9 +111,12 @@ impl PlotSpec {
         let reference = |r: &ReferenceSpec| Reference { slope: r.slope, through: r.through, label: r.label.clone() };
         let kept = self.kept(records);
         let (cells, columns) = self.panels.cells(&kept);
+        // Panels share a legend, and each has exponents of its own: the table has them.
+        let single = cells.len() == 1;
         let plots = cells.into_iter().map(|cell| {
             let fitted = self.fitted(&cell.records).into_iter();
-            let mut series: Vec<Series> = fitted.map(|(series, fitted)| named(series, fitted)).collect();
+            let mut series: Vec<Series> =
+                fitted.map(|(series, fitted)| named(series, fitted.filter(|_| single))).collect();
             let mut title = cell.title;
             if self.y.above_lowest {
                 title = format!("{title}{}E* = {}", if title.is_empty() { "" } else { ", " }, lowered(&mut series));
@@ -142,8 +148,7 @@ impl PlotSpec {
     }
 
     fn kept<'a>(&self, records: &'a [Record]) -> Vec<&'a Record> {
-        let kept = |r: &&Record| self.only.iter().all(|(key, wanted)| r.get(key).is_some_and(|v| matches(&v, wanted)));
-        records.iter().filter(kept).collect()
+        records.iter().filter(|record| chosen(&self.only, record)).collect()
     }
 
     /// The series without their exponents in the label, and these.
@@ -160,7 +165,7 @@ impl PlotSpec {
 
     fn series(&self, spec: &SeriesSpec, records: &[&Record]) -> Vec<Series> {
         let mut series: Vec<Series> = Vec::new();
-        for record in records {
+        for record in records.iter().filter(|record| chosen(&spec.only, record)) {
             let by = spec.by.as_ref().and_then(|key| record.get(key));
             let label = spec.label.replace("{}", &by.as_ref().map(number).unwrap_or_default());
             let x = self.x.key.as_ref().and_then(|key| record.get(key));
@@ -197,6 +202,11 @@ fn lowered(series: &mut [Series]) -> String {
 
 fn point((x, y): (&Value, &Value)) -> Option<[f64; 2]> {
     Some([x.as_f64()?, y.as_f64()?])
+}
+
+/// Whether a run has these values.
+fn chosen(only: &BTreeMap<String, Value>, record: &Record) -> bool {
+    only.iter().all(|(key, wanted)| record.get(key).is_some_and(|value| matches(&value, wanted)))
 }
 
 /// Whether `value` is the wanted one, or one of a list of these.
