@@ -83,8 +83,13 @@ impl Display {
         }
         if interrupt::requested() && !self.stopping {
             self.stopping = true;
-            let running = plural(self.running.len(), "run", "runs");
-            writeln!(out, "stopping when {running} in progress have ended; Ctrl-C again stops at once")?;
+            match self.running.len() {
+                0 => writeln!(out, "stopping; no run is in progress")?,
+                running => {
+                    let running = plural(running, "run", "runs");
+                    writeln!(out, "stopping when {running} in progress have ended; Ctrl-C again stops at once")?;
+                }
+            }
         }
         self.draw();
         // Seen at once, also through a pipe.

@@ -56,7 +56,8 @@ pub(super) fn pool<T: Send, E: From<io::Error>>(
             match receiver.recv_timeout(PULSE) {
                 Ok(told) => hear(told)?,
                 Err(RecvTimeoutError::Timeout) => hear(Told::Pulse)?,
-                Err(RecvTimeoutError::Disconnected) => return Ok(()),
+                // A last time, for what came up after the last item.
+                Err(RecvTimeoutError::Disconnected) => return hear(Told::Pulse),
             }
         }
     })
