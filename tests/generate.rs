@@ -3,10 +3,20 @@
 use std::collections::HashMap;
 
 use proptest::prelude::*;
-use riemap::surface::generate::{Form, Generated, SURFACES, generate};
+use riemap::surface::generate::{Form, Generated, Row, SURFACES, Values, generate};
 
 fn make(source: &str) -> Generated {
     generate(source).unwrap_or_else(|error| panic!("{source}: {error}"))
+}
+
+/// Whether the surface has all these parameters, and these meshes.
+fn takes(row: &Row, query: &str) -> bool {
+    query.split('&').filter_map(|pair| pair.split_once('=')).all(|(name, value)| {
+        row.all_parameters().find(|p| p.name == name).is_some_and(|p| match p.values {
+            Values::Choice(words) => words.contains(&value),
+            _ => true,
+        })
+    })
 }
 
 /// Every kind in every mesh it has, small, with random parts where there are any.
@@ -27,7 +37,7 @@ fn everything() -> Vec<Generated> {
                 "mesh=delaunay&seed=4",
                 "mesh=delaunay&points=random&seed=5",
             ] {
-                if row.name != "torus" || !(tail.contains("delaunay") || tail.contains("jitter")) {
+                if takes(row, tail) {
                     names.push(format!("{}?n={n}&{tail}", row.name));
                 }
             }
@@ -310,6 +320,36 @@ fn jitter_moves_interior_vertices_only_and_by_no_more_than_asked() {
         far += usize::from(most > 0.2);
     }
     assert!(far > 150, "only {far} of 361 moved far: too many moves were cut short");
+}
+
+#[test]
+fn hard_shapes_are_what_they_say() {
+    let squares = |name: &str| make(name).surface.faces.len();
+    // 6 teeth of 6, a back of 11; 2 × 2 squares each
+    assert_eq!(squares("comb?teeth=6&length=6&n=2"), 4 * (6 * 6 + 11));
+    assert_eq!(squares("comb?teeth=6&length=6&n=2&mesh=triangle"), 8 * (6 * 6 + 11));
+    // one square to begin with, then two legs each of 2, 4, 6 … squares
+    assert_eq!(squares("spiral?rounds=3&n=1"), 1 + 2 * (2 + 4 + 6 + 8 + 10 + 12));
+    // rows of 2, 4 … 2 · size and back
+    assert_eq!(squares("staircase?size=8&n=1"), 2 * 8 * 9);
+    // half a sphere of radius 1 and a tube of length 4: 2π (1 + 4)
+    let area = |g: &Generated| -> f64 {
+        let p = |v: u32| g.surface.positions[v as usize];
+        let twice = |f: &[u32]| {
+            let normal = cross(minus(p(f[1]), p(f[0])), minus(p(f[2]), p(f[0])));
+            dot(normal, normal).sqrt()
+        };
+        g.surface.faces.iter().map(|f| 0.5 * twice(f)).sum()
+    };
+    let [found, exact] = [area(&make("capsule?n=200&mesh=triangle&length=4")), 10.0 * std::f64::consts::PI];
+    assert!((found / exact - 1.0).abs() < 1e-3, "{found} {exact}");
+    // a plain of area 4 whose spikes and vertices go up and down
+    assert!(area(&make("spikes?mesh=triangle&n=200")) > 6.0);
+    let rough = make("rough?n=33&height=0.5&mesh=triangle");
+    let heights: Vec<f64> = rough.surface.positions.iter().map(|p| p[2]).collect();
+    let (low, high) = heights.iter().fold((f64::MAX, f64::MIN), |(l, h), &z| (l.min(z), h.max(z)));
+    assert!(low < -0.49 && high > 0.49 && low >= -0.5 && high <= 0.5, "{low} {high}");
+    assert!(negative_and_obtuse(&rough).1 > 0.5);
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod disc;
 mod error;
 mod graph;
 mod grid;
+mod hard;
 mod mesh;
 mod name;
 mod random;
@@ -94,6 +95,12 @@ pub static SURFACES: &[Row] = &[
     disc::catenoid::CATENOID,
     disc::pseudosphere::PSEUDOSPHERE,
     disc::torus_patch::TORUS_PATCH,
+    hard::capsule::CAPSULE,
+    hard::graph::SPIKES,
+    hard::graph::ROUGH,
+    hard::flat::COMB,
+    hard::flat::SPIRAL,
+    hard::flat::STAIRCASE,
     torus::TORUS,
     digital::TORUS,
     digital::BALL,
