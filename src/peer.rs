@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use crate::backend::Observer;
 use crate::constraint::{Fixed, spread_points};
 use crate::input::Input;
-use crate::libigl::{Environment, LibiglError, harmonic, lscm};
+use crate::libigl::{Environment, LibiglError, harmonic, lscm, slim};
 use crate::map::{Boundary, Domain, Map, MapError, MapOptions, Mapped, run};
 
 /// A function of another program.
@@ -20,11 +20,23 @@ pub struct Peer {
     pub description: &'static str,
     /// Whether the boundary is held on the unit circle.
     pub on_circle: bool,
+    given: Given,
     call: Call,
 }
 
 /// What is held, and where, to an answer.
 type Call = fn(&Environment, &Request) -> Result<Answer, LibiglError>;
+
+/// Of which vertices the peer is told a place: those of the circle by arc length.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Given {
+    /// The boundary, which stays there.
+    Boundary,
+    /// The boundary, to start from.
+    Start,
+    /// Two, as far from each other along the boundary as can be, which stay there.
+    TwoPoints,
+}
 
 struct Request<'a> {
     positions: &'a [[f64; 3]],
@@ -38,12 +50,16 @@ struct Answer {
     seconds_cpu: f64,
 }
 
+/// As many as the authors of SLIM show to be enough.
+const SLIM_ITERATIONS: usize = 20;
+
 /// Every peer.
 pub static PEERS: &[Peer] = &[
     Peer {
         name: "libigl-harmonic",
         description: "cotan Laplacian, boundary on the unit circle by arc length",
         on_circle: true,
+        given: Given::Boundary,
         call: |libigl, r| {
             let map = harmonic(libigl, r.positions, r.triangles, r.held, r.places)?;
             Ok(Answer { uv: map.uv, seconds_cpu: map.seconds_cpu })
@@ -53,8 +69,19 @@ pub static PEERS: &[Peer] = &[
         name: "libigl-lscm",
         description: "least-squares conformal map, boundary free, two boundary vertices held",
         on_circle: false,
+        given: Given::TwoPoints,
         call: |libigl, r| {
             let map = lscm(libigl, r.positions, r.triangles, r.held, r.places)?;
+            Ok(Answer { uv: map.uv, seconds_cpu: map.seconds_cpu })
+        },
+    },
+    Peer {
+        name: "libigl-slim",
+        description: "20 iterations of SLIM on the symmetric Dirichlet energy, boundary free, nothing held, from the harmonic map",
+        on_circle: false,
+        given: Given::Start,
+        call: |libigl, r| {
+            let map = slim(libigl, r.positions, r.triangles, r.held, r.places, SLIM_ITERATIONS)?;
             Ok(Answer { uv: map.uv, seconds_cpu: map.seconds_cpu })
         },
     },
@@ -102,17 +129,17 @@ impl Peer {
         let options = MapOptions { boundary: Boundary::Fixed, ..MapOptions::default() };
         let mapped = run(input, &options, watch)?;
         let Domain { disc, graph, .. } = &mapped.domain;
-        let held: Vec<u32> = match self.on_circle {
-            true => disc.boundary.clone(),
-            // Of two, as far from each other along the boundary as can be; both are vertices of the mesh.
-            false => spread_points(graph, 2).into_iter().map(|k| graph.boundary[k]).collect(),
+        let held: Vec<u32> = match self.given {
+            Given::Boundary | Given::Start => disc.boundary.clone(),
+            // Both are vertices of the mesh.
+            Given::TwoPoints => spread_points(graph, 2).into_iter().map(|k| graph.boundary[k]).collect(),
         };
         let places: Vec<[f64; 2]> = held.iter().map(|&v| mapped.map.z[v as usize]).map(|z| [z.re, z.im]).collect();
         let triangles: Vec<[u32; 3]> = disc.faces.iter().filter_map(|t| t.try_into().ok()).collect();
         let request = Request { positions: &disc.positions, triangles: &triangles, held: &held, places: &places };
         let Answer { uv, seconds_cpu } = (self.call)(libigl, &request)?;
         let mut fixed = Fixed::default();
-        for (&v, &[x, y]) in held.iter().zip(&places) {
+        for (&v, &[x, y]) in held.iter().zip(&places).filter(|_| self.given != Given::Start) {
             fixed.hold(v, Complex64::new(x, y));
         }
         let z = uv.iter().map(|&[x, y]| Complex64::new(x, y)).collect();

@@ -53,3 +53,18 @@ fn what_a_peer_cannot_map_is_refused() {
     assert!(matches!(refused, Err(LibiglError::TooFewFixed { fixed: 1 })));
     assert!(peer("nobody").is_none());
 }
+
+#[test]
+fn slim_finds_the_isometry_of_a_plane_mesh_and_never_folds() {
+    let flat = map("libigl-slim", "staircase?size=4&mesh=triangle");
+    // 20 iterations come within a hundredth of it.
+    assert!(flat.distortion.quasi_conformal.unwrap().max < 1.01);
+    assert!(flat.distortion.length.unwrap().max < 1.01);
+    // The harmonic map of this one is folded: the start has unit weights.
+    let source = "spikes?n=17&height=5&mesh=triangle";
+    assert!(map("libigl-harmonic", source).distortion.flipped > 0);
+    let rough = map("libigl-slim", source);
+    assert_eq!(rough.distortion.flipped, 0);
+    // Nothing is held on the circle.
+    assert_eq!(rough.distortion.boundary_out_of_order, None);
+}

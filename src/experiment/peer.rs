@@ -19,11 +19,14 @@ use crate::stopwatch::Stopwatch;
 /// One surface, mapped with a dual point or by a peer, both measured alike.
 pub(super) struct PeerKind;
 
+/// The method that is all that `[map]` says.
+const OURS: &str = "riemap";
+
 /// `[method]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MethodSpec {
-    /// A dual point, or a peer.
+    /// `riemap`, which leaves the dual point to `[map]`; a dual point; or a peer.
     name: String,
 }
 
@@ -39,7 +42,7 @@ impl Kind for PeerKind {
     }
 
     fn description(&self) -> &'static str {
-        "a circle map with one of our dual points, or a map of another program, both measured by the same code; \
+        "a map of ours, or with one of our dual points, or a map of another program, both measured by the same code; \
          `error` after a Möbius map through three boundary points, `aligned` after the best one"
     }
 
@@ -60,9 +63,13 @@ impl Kind for PeerKind {
 
     fn task(&self, config: &Document) -> Result<Box<dyn Task>, ConfigError> {
         let MethodSpec { name } = config.table("method")?;
-        let known: Vec<&str> = DUAL_POINTS.iter().map(|d| d.name()).chain(PEERS.iter().map(|p| p.name)).collect();
+        let peers = PEERS.iter().map(|p| p.name);
+        let known: Vec<&str> = [OURS].into_iter().chain(DUAL_POINTS.iter().map(|d| d.name())).chain(peers).collect();
         config.check_name("method.name", "dual point or peer", &name, &known)?;
-        let options = MapOptions { dual: name.clone(), ..config.table("map")? };
+        let mut options: MapOptions = config.table("map")?;
+        if name != OURS {
+            options.dual = name.clone();
+        }
         Ok(Box::new(PeerTask { surface: SurfaceSpec::of(config)?, options, method: name }))
     }
 }

@@ -13,6 +13,8 @@ import time
 
 import igl
 import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
 
 
 def read(path):
@@ -81,7 +83,54 @@ def lscm(a, options):
     return {"uv": uv}, seconds
 
 
-FUNCTIONS = {"harmonic": harmonic, "lscm": lscm}
+def doubled_areas(uv, triangles):
+    a, b, c = (uv[triangles[:, k]] for k in range(3))
+    return (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+
+
+def tutte(triangles, count, fixed, values):
+    """Every free vertex is the mean of its neighbours."""
+    a = np.concatenate([triangles, np.roll(triangles, -1, axis=1)], axis=1).reshape(-1, 2, 3)
+    rows, columns = a[:, 0].ravel(), a[:, 1].ravel()
+    both = np.concatenate([rows, columns]), np.concatenate([columns, rows])
+    adjacency = scipy.sparse.coo_matrix((np.ones(len(both[0])), both), (count, count)).tocsr()
+    adjacency.data[:] = 1.0
+    laplacian = (scipy.sparse.diags(np.asarray(adjacency.sum(axis=1)).ravel()) - adjacency).tocsc()
+    free = np.setdiff1d(np.arange(count), fixed)
+    uv = np.zeros((count, 2))
+    uv[fixed] = values
+    if free.size:
+        right = -(laplacian[free][:, fixed] @ values)
+        uv[free] = scipy.sparse.linalg.splu(laplacian[free][:, free]).solve(right)
+    return uv
+
+
+def slim(a, options):
+    positions, triangles, fixed, values = a["positions"], a["triangles"], a["fixed"], a["values"]
+    area = 0.5 * igl.doublearea(positions, triangles).sum()
+    values = values * np.sqrt(area / np.pi)
+    start = igl.harmonic(positions, triangles, fixed, values, 1)
+    uniform = not (np.isfinite(start).all() and (doubled_areas(start, triangles) > 0).all())
+    if uniform:
+        start = tutte(triangles, len(positions), fixed, values)
+    nothing = np.zeros(0, np.int32), np.zeros((0, 2), order="F")
+
+    def solve():
+        data = igl.slim_precompute(
+            np.asfortranarray(positions),
+            np.asfortranarray(triangles, np.int32),
+            np.asfortranarray(start),
+            igl.SYMMETRIC_DIRICHLET,
+            *nothing,
+            0.0,
+        )
+        return igl.slim_solve(data, options["iterations"])
+
+    uv, seconds = timed(solve)
+    return {"uv": uv[:, :2]}, {**seconds, "uniform_start": int(uniform)}
+
+
+FUNCTIONS = {"harmonic": harmonic, "lscm": lscm, "slim": slim}
 
 header, arrays = read(sys.argv[1])
 arrays, fields = FUNCTIONS[header["function"]](arrays, header["options"])

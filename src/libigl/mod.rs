@@ -1,7 +1,7 @@
 //! libigl itself, to compare with: its Python package in an environment of its own, called through files.
 //!
-//! [`Environment::ensure`] finds or makes the environment, once; [`harmonic`] and [`lscm`] run
-//! `igl.harmonic` and `igl.lscm` in it. Every call is
+//! [`Environment::ensure`] finds or makes the environment, once; [`harmonic`], [`lscm`] and [`slim`] run
+//! `igl.harmonic`, `igl.lscm` and SLIM in it. Every call is
 //! one process: nothing of one measurement is left to the next. A further function of libigl is one function in
 //! `calls.py` and one here, like `harmonic.rs`.
 //!
@@ -21,6 +21,7 @@ mod harmonic;
 mod interpreter;
 mod lscm;
 mod settings;
+mod slim;
 
 pub use environment::{Environment, VERSION};
 pub use error::LibiglError;
@@ -28,3 +29,4 @@ pub use harmonic::{Harmonic, harmonic};
 pub use interpreter::Versions;
 pub use lscm::{Lscm, lscm};
 pub use settings::Settings;
+pub use slim::{Slim, slim};
