@@ -35,7 +35,7 @@ fn names(config: &Config) -> Vec<&str> {
 fn run(config: &Config, shard: Shard, results: &Path) -> Vec<Record> {
     let configs = std::slice::from_ref(config);
     let mut records = Vec::new();
-    Batch { configs, shard, results, threads: NonZeroUsize::MIN, journal: None }
+    Batch { configs, shard, results, threads: NonZeroUsize::MIN, apart: None, journal: None }
         .run(&|| false, &mut |event| {
             if let Event::Ended { record, .. } = event {
                 records.push(record.clone());

@@ -21,7 +21,7 @@ fn study(text: &str, results: &Path) -> Vec<Record> {
     fs::write(&path, text).unwrap();
     let config = Config::load(&path, &[]).unwrap();
     let configs = std::slice::from_ref(&config);
-    let batch = Batch { configs, shard: Shard::ALL, results, threads: NonZeroUsize::MIN, journal: None };
+    let batch = Batch { configs, shard: Shard::ALL, results, threads: NonZeroUsize::MIN, apart: None, journal: None };
     batch.run(&|| false, &mut |_| {}).unwrap();
     experiment::summarise(&config, results).unwrap().records
 }

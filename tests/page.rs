@@ -59,7 +59,8 @@ fn made(texts: &[(&str, &str)], shard: &str, folder: &Path) -> String {
     let configs: Vec<Config> = texts.iter().map(load).collect();
     let results = folder.join("results");
     let shard: Shard = shard.parse().unwrap();
-    let batch = Batch { configs: &configs, shard, results: &results, threads: NonZeroUsize::MIN, journal: None };
+    let batch =
+        Batch { configs: &configs, shard, results: &results, threads: NonZeroUsize::MIN, apart: None, journal: None };
     batch.run(&|| false, &mut |_| {}).unwrap();
     page(&configs, &results)
 }

@@ -171,6 +171,7 @@ fn run(text: &str) -> (tempfile::TempDir, Config, Vec<Record>) {
         shard: Shard::ALL,
         results: folder.path(),
         threads: NonZeroUsize::MIN,
+        apart: None,
         journal: None,
     };
     let mut records = Vec::new();

@@ -6,6 +6,7 @@ mod info;
 mod interrupt;
 mod list;
 mod map;
+mod one;
 mod progress;
 mod reproduce;
 mod run;
@@ -39,6 +40,9 @@ enum Command {
     Run(run::Arguments),
     /// Run every experiment of the clone, and draw its figures
     Reproduce(reproduce::Arguments),
+    /// Make one run of an experiment, as `run` does where each has a process of its own
+    #[command(hide = true)]
+    RunOne(one::Arguments),
     /// List surfaces, estimators of normals, energies, constraints, dual points and backends
     List,
 }
@@ -51,6 +55,7 @@ pub fn run(arguments: Arguments, out: &mut dyn Write) -> anyhow::Result<()> {
         Command::Verify(arguments) => verify::run(&arguments, out),
         Command::Run(arguments) => run::run(&arguments, out),
         Command::Reproduce(arguments) => reproduce::run(&arguments, out),
+        Command::RunOne(arguments) => one::run(&arguments),
         Command::List => list::run(out),
     }
 }

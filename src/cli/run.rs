@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use riemap::experiment::{Batch, Config, DataFile, Journal, Settings, Shard, data_folders};
+use riemap::experiment::{Batch, Config, DataFile, Journal, Run, Settings, Shard, data_folders};
 
 use super::display::Display;
 use super::index::write_index;
-use super::{interrupt, plural};
+use super::{interrupt, one, plural};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -91,7 +91,9 @@ pub fn run_all(configs: &[Config], options: &Options, results: &Path, out: &mut 
     if options.fresh {
         journal.forget(configs, options.shard)?;
     }
-    let batch = Batch { configs, shard: options.shard, results, threads, journal: Some(&journal) };
+    let program = env::current_exe().context("the program does not find itself")?;
+    let apart = |config: &Config, run: &Run| one::command(&program, config, run, options, results);
+    let batch = Batch { configs, shard: options.shard, results, threads, apart: Some(&apart), journal: Some(&journal) };
     let total = batch.runs().count();
     let mut display = Display::new(total);
     let (mut shown, unheard) = (Ok(()), AtomicBool::new(false));
@@ -111,9 +113,8 @@ pub fn run_all(configs: &[Config], options: &Options, results: &Path, out: &mut 
     if interrupt::requested() && display.ended() < total {
         return Err(Interrupted { ended: display.ended(), total }.into());
     }
-    let unexpected = display.refuted + display.failed;
-    if unexpected > 0 {
-        bail!("{} without the expected result", plural(unexpected, "run", "runs"));
+    if display.unexpected > 0 {
+        bail!("{} without the expected result", plural(display.unexpected, "run", "runs"));
     }
     if !display.complaints.is_empty() {
         bail!("{} without tables and plots", plural(display.complaints.len(), "experiment", "experiments"));

@@ -3,8 +3,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use super::pool::{Told, pool};
-use super::repository::revision;
-use super::run::{Ended, make, write};
+use super::run::{Ended, make, make_apart, versions, write};
 use super::{Config, Journal, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
 
 /// Experiments to be run together.
@@ -17,9 +16,14 @@ pub struct Batch<'a> {
     pub results: &'a Path,
     /// Runs made at the same time. What comes out does not depend on it.
     pub threads: NonZeroUsize,
+    /// How a run is made in a process of its own, where its config limits its time. Without, the limit does not hold.
+    pub apart: Option<&'a Maker<'a>>,
     /// What a former batch has finished, which is not made again, and where this one notes what it finishes.
     pub journal: Option<&'a Journal>,
 }
+
+/// The command that makes one run and writes its record ([`make_one`](super::make_one)).
+pub type Maker<'a> = dyn Fn(&Config, &Run) -> std::process::Command + Sync + 'a;
 
 /// What a batch tells while it works.
 pub enum Event<'a> {
@@ -89,8 +93,7 @@ impl Batch<'_> {
     /// # Errors
     /// [`ResultsError`] where files cannot be written.
     pub fn run(&self, stop: &(dyn Fn() -> bool + Sync), watch: &mut dyn FnMut(Event)) -> Result<(), ResultsError> {
-        let mut versions = BTreeMap::from([("riemap".to_owned(), env!("CARGO_PKG_VERSION").to_owned())]);
-        versions.extend(revision().map(|revision| ("revision".to_owned(), revision)));
+        let versions = versions();
         let jobs = self.unfinished(watch);
         let (mut unmade, mut unsummed) = (jobs.len(), 0);
         let mut left = vec![0; self.configs.len()];
@@ -148,11 +151,23 @@ impl Batch<'_> {
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<Ended>, ResultsError> {
         let (config, run) = self.of(job);
-        let ended = make(config, run, versions);
-        if ended.record.outcome == Outcome::Failed && stop() {
-            return Ok(None);
-        }
-        write(self.results, config, run, &ended)?;
+        let ended = match (config.time_limit, self.apart) {
+            (Some(seconds), Some(maker)) => {
+                let Some(ended) = make_apart(self.results, config, run, versions, (seconds, maker(config, run)), stop)?
+                else {
+                    return Ok(None);
+                };
+                ended
+            }
+            _ => {
+                let ended = make(config, run, versions);
+                if ended.record.outcome == Outcome::Failed && stop() {
+                    return Ok(None);
+                }
+                write(self.results, config, run, &ended)?;
+                ended
+            }
+        };
         if let Some(journal) = self.journal {
             journal.note(config, run)?;
         }

@@ -7,15 +7,33 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::document::{Axis, Document, Sources};
-use super::{Bound, ConfigError, DataFile, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task, Without, convergence};
+use super::folder::sweep_over_folder;
+use super::{
+    Bound, ConfigError, DataFile, GroupSpec, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task, Without, convergence,
+};
 
 /// More runs than these in one config are taken for a mistake.
 const MOST_RUNS: usize = 10_000;
 /// Longest name of a run's file, without extension.
 const LONGEST_NAME: usize = 100;
 /// The top-level keys of every config.
-const HEAD: [&str; 11] =
-    ["title", "claim", "kind", "alone", "sweep", "full", "without", "expect", "table", "plots", "sheet"];
+const HEAD: [&str; 15] = [
+    "title",
+    "claim",
+    "kind",
+    "alone",
+    "folder",
+    "time-limit",
+    "may-fail",
+    "sweep",
+    "full",
+    "without",
+    "expect",
+    "table",
+    "groups",
+    "plots",
+    "sheet",
+];
 
 /// A column of an experiment's table.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -75,6 +93,11 @@ pub struct Config {
     pub kind: &'static dyn Kind,
     /// Whether its runs are timed, so that nothing else may run beside them.
     pub alone: bool,
+    /// Seconds after which a run is ended; each is then made in a process of its own, where [`Batch::apart`](super::Batch::apart) says
+    /// how.
+    pub time_limit: Option<f64>,
+    /// Whether it is a result, too, that a run fails.
+    pub may_fail: bool,
     /// The runs to be made: the last swept key varies fastest.
     pub runs: Vec<Run>,
     /// Those of `[full]`, where they are not asked for.
@@ -85,6 +108,8 @@ pub struct Config {
     pub without: Vec<Without>,
     /// Columns of the table, after the swept keys.
     pub columns: Vec<Column>,
+    /// A table that sums up groups of runs.
+    pub groups: Option<GroupSpec>,
     /// Plots over the runs, by name.
     pub plots: BTreeMap<String, PlotSpec>,
     /// The figure that the pictures of all runs make, if they do.
@@ -125,6 +150,7 @@ impl Config {
         };
         let mut sweep = document.sweep()?;
         sweep.retain(|axis| !set.contains(&axis.key));
+        sweep_over_folder(&document, &mut sweep)?;
         let mut config = Config {
             name: name.to_owned(),
             path: document.file().to_owned(),
@@ -132,11 +158,14 @@ impl Config {
             claim: document.optional("claim")?.unwrap_or_default(),
             kind,
             alone: document.optional("alone")?.unwrap_or_default(),
+            time_limit: document.time_limit()?,
+            may_fail: document.optional("may-fail")?.unwrap_or_default(),
             runs: Vec::new(),
             more: Vec::new(),
             swept: sweep.iter().map(|axis| axis.key.clone()).collect(),
             without: document.optional("without")?.unwrap_or_default(),
             columns,
+            groups: document.optional("groups")?,
             plots: document.optional("plots")?.unwrap_or_default(),
             sheet: document.optional("sheet")?,
         };
@@ -156,7 +185,20 @@ impl Config {
                 return Err(document.wrong_plot(name, reason));
             }
         }
-        for key in ["alone", "sweep", "full", "without", "table", "plots", "sheet"] {
+        let of_the_whole = [
+            "alone",
+            "folder",
+            "time-limit",
+            "may-fail",
+            "sweep",
+            "full",
+            "without",
+            "table",
+            "groups",
+            "plots",
+            "sheet",
+        ];
+        for key in of_the_whole {
             document.remove(key);
         }
         let runs = sweep.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.values.len()));

@@ -99,7 +99,7 @@ pub(super) struct Axis<'a> {
     pub(super) values: Vec<Spanned<DeValue<'a>>>,
     /// How many are of `[sweep]`.
     pub(super) usual: usize,
-    span: Range<usize>,
+    pub(super) span: Range<usize>,
 }
 
 /// A config as a tree of TOML values that know where they stand.
@@ -146,7 +146,7 @@ impl<'a> Document<'a> {
         if known.contains(&name) {
             return Ok(());
         }
-        let place = self.sources.place(self.find(key).map_or(0..0, Spanned::span));
+        let place = self.place(self.span(key));
         Err(ConfigError::UnknownName { place, what, name: name.to_owned(), known: known.join(", ") })
     }
 
@@ -168,6 +168,15 @@ impl<'a> Document<'a> {
     pub(super) fn not_swept(&self, key: &str, swept: &[String]) -> ConfigError {
         let place = self.sources.place(self.root.get_ref().get("without").map_or(0..0, Spanned::span));
         ConfigError::NotSwept { place, table: "[[without]]", key: key.to_owned(), known: swept.join(", ") }
+    }
+
+    /// `time-limit`, in seconds.
+    pub(super) fn time_limit(&self) -> Result<Option<f64>, ConfigError> {
+        let limit = self.optional::<f64>("time-limit")?;
+        match limit.filter(|seconds| !(*seconds > 0.0 && seconds.is_finite())) {
+            Some(seconds) => Err(ConfigError::TimeLimit { place: self.place(self.span("time-limit")), seconds }),
+            None => Ok(limit),
+        }
     }
 
     /// The swept keys in the order of the file, each with its values.
@@ -244,6 +253,16 @@ impl<'a> Document<'a> {
 
     pub(super) fn file(&self) -> &str {
         self.sources.file()
+    }
+
+    /// Where the value of a dotted key stands.
+    pub(super) fn span(&self, key: &str) -> Range<usize> {
+        self.find(key).map_or(0..0, Spanned::span)
+    }
+
+    /// A span as errors show it.
+    pub(super) fn place(&self, span: Range<usize>) -> Box<Place> {
+        self.sources.place(span)
     }
 
     fn find(&self, key: &str) -> Option<&Spanned<DeValue<'a>>> {

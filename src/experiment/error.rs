@@ -139,6 +139,24 @@ pub enum ConfigError {
         /// The swept keys.
         known: String,
     },
+    /// A folder of meshes that is none.
+    #[error("{place}: folder {folder}: {reason}\n{}", place.excerpt())]
+    Folder {
+        /// Where.
+        place: Box<Place>,
+        /// Its path.
+        folder: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A limit that is no time.
+    #[error("{place}: time-limit = {seconds}: it needs a number of seconds above 0\n{}", place.excerpt())]
+    TimeLimit {
+        /// Where.
+        place: Box<Place>,
+        /// The number.
+        seconds: f64,
+    },
     /// A cartesian product out of hand.
     #[error("{source_name}: the sweep makes more than {limit} runs")]
     TooManyRuns {
@@ -175,6 +193,20 @@ pub enum RunError {
     Panic {
         /// What it said.
         message: String,
+    },
+    /// A run in a process of its own that took too long.
+    #[error("over the time limit of {seconds} s")]
+    OverTime {
+        /// The limit.
+        seconds: f64,
+    },
+    /// A process that ended without a record: out of memory, say.
+    #[error("the process of the run ended without a record, {status}{}{said}", if said.is_empty() { "" } else { ": " })]
+    Process {
+        /// How.
+        status: String,
+        /// The last that it said.
+        said: String,
     },
     /// No surface.
     #[error(transparent)]
@@ -233,6 +265,17 @@ pub enum RunError {
 /// Results that cannot be written or summed up.
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
+    /// A run that was to be made in a process of its own.
+    #[error("the process of a run cannot be started")]
+    Process(#[source] std::io::Error),
+    /// No such run.
+    #[error("{config} has no run {position}")]
+    NoRun {
+        /// Path of the config.
+        config: String,
+        /// The place among its runs, from 0.
+        position: usize,
+    },
     /// No folder.
     #[error("{}: the folder cannot be made", path.display())]
     Folder {

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Config, Outcome, Record, fit};
+use super::{Config, Outcome, Record, fit, groups};
 
 /// A table: cells of text, row by row.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +32,7 @@ pub(super) fn grids(config: &Config, records: &[Record]) -> Vec<(String, Grid)> 
         if let Some(grid) = of_records(config, records, timings).filter(|grid| !grid.rows.is_empty()) {
             grids.push((label.to_owned(), grid));
         }
+        grids.extend(groups::grid(config, records, timings));
         grids.extend(fit::grids(config, records, timings));
     }
     grids

@@ -9,12 +9,12 @@
 //! | `document.rs` | TOML that knows its lines; setting dotted keys; errors with line and caret |
 //! | `config.rs`, `shard.rs` | [`Config`]: a file made into [`Run`]s; [`Shard`]s of them |
 //! | `surface.rs`, `data.rs` | `[surface]`; public files, and where they come from |
-//! | `expect.rs`, `without.rs` | bounds on results; runs that are not made |
+//! | `expect.rs`, `without.rs`, `folder.rs` | bounds on results; runs that are not made; meshes of a folder |
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
 //! | `run.rs`, `stale.rs` | one run → its record and pictures in a folder; those of runs that are no more |
-//! | `batch.rs`, `pool.rs`, `journal.rs` | [`Batch`]: runs in parallel; going on after an interruption |
+//! | `batch.rs`, `pool.rs`, `apart.rs`, `journal.rs` | [`Batch`]: runs in parallel, or in processes of their own; going on after an interruption |
 //! | `page/` | everything → `index.html` |
-//! | `summary.rs`, `grid.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
+//! | `summary.rs`, `grid.rs`, `groups.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs`, `panels.rs` | exponents fitted to the series of plots; plots beside each other |
 //! | `convergence.rs` | iterations as records keep them; the plots that `[figures] convergence` asks for |
 //! | `map.rs`, `cotan.rs`, `normals.rs`, `peer.rs` | the kinds of experiment, rows of [`KINDS`] |
@@ -25,6 +25,7 @@
 //!
 //! Everything but `timings` and `versions` of a record is the same on every run of the same program, bit for bit.
 
+mod apart;
 mod batch;
 mod caption;
 mod chart;
@@ -37,7 +38,9 @@ mod document;
 mod error;
 mod expect;
 mod fit;
+mod folder;
 mod grid;
+mod groups;
 mod journal;
 mod map;
 mod marks;
@@ -62,7 +65,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-pub use batch::{Batch, Event};
+pub use batch::{Batch, Event, Maker};
 pub use caption::{Caption, CaptionError};
 pub use chart::{AxisSpec, PlotSpec, ReferenceSpec, SeriesSpec};
 pub use config::{Column, Config, Run, Settings};
@@ -73,6 +76,7 @@ pub use document::Document;
 pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::Bound;
 pub use fit::{Abscissa, FitSpec, Fitted};
+pub use groups::{GroupColumn, GroupSpec, Take};
 pub use journal::Journal;
 pub use marks::{Mark, Marks, Measure};
 pub use model::{ModelError, stage_model};
@@ -81,6 +85,7 @@ pub use panels::PanelSpec;
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};
 pub use repository::{find_experiments, revision};
+pub use run::make_one;
 pub use shard::{NoShard, Shard};
 pub use sheet::SheetSpec;
 pub use stale::remove_stale;

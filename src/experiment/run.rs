@@ -4,10 +4,13 @@ use std::fs;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Instant;
 
 use serde_json::Value;
 
+use super::apart::{End, apart};
+use super::repository::revision;
 use super::{Config, Outcome, Picture, Record, ResultsError, Run, RunError, Yield};
 use crate::figure::Format;
 use crate::io::atomically;
@@ -35,6 +38,52 @@ pub(super) fn make(config: &Config, run: &Run, versions: &BTreeMap<String, Strin
     }
     record.pictures = pictures.iter().map(|picture| picture_name(config, run, picture)).collect();
     Ended { record, pictures, seconds }
+}
+
+/// Makes a run and writes its record and pictures into `results`: what a process does that a [`Maker`](super::Maker) calls.
+///
+/// # Errors
+/// No run at that place; files that cannot be written.
+pub fn make_one(results: &Path, config: &Config, position: usize) -> Result<(), ResultsError> {
+    let run = config.all_runs().into_iter().find(|run| run.position == position);
+    let run = run.ok_or_else(|| ResultsError::NoRun { config: config.path.clone(), position })?;
+    write(results, config, run, &make(config, run, &versions()))
+}
+
+/// Has a run made by a process of its own within some seconds; a process that leaves no record leaves a failure. `None` where all is
+/// to stop.
+pub(super) fn make_apart(
+    results: &Path,
+    config: &Config,
+    run: &Run,
+    versions: &BTreeMap<String, String>,
+    (limit, command): (f64, Command),
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<Ended>, ResultsError> {
+    let begun = Instant::now();
+    let end = apart(command, limit, stop).map_err(ResultsError::Process)?;
+    let seconds = begun.elapsed().as_secs_f64();
+    let error = match end {
+        End::Stopped => return Ok(None),
+        End::Well => match stored(results, config, run) {
+            Some(record) => return Ok(Some(Ended { record, pictures: Vec::new(), seconds })),
+            None => RunError::Process { status: "exit status: 0".to_owned(), said: String::new() },
+        },
+        End::OverTime => RunError::OverTime { seconds: limit },
+        End::Otherwise(status, said) => RunError::Process { status: status.to_string(), said },
+    };
+    let (mut record, pictures) = record(config, run, Err(error));
+    record.versions.extend(versions.clone());
+    let ended = Ended { record, pictures, seconds };
+    write(results, config, run, &ended)?;
+    Ok(Some(ended))
+}
+
+/// Those that every record has: the program's, and of which revision it is.
+pub(super) fn versions() -> BTreeMap<String, String> {
+    let mut versions = BTreeMap::from([("riemap".to_owned(), env!("CARGO_PKG_VERSION").to_owned())]);
+    versions.extend(revision().map(|revision| ("revision".to_owned(), revision)));
+    versions
 }
 
 /// Writes `<config>/<run>.json` and the pictures, and removes those that the run had and has no more.

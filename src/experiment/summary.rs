@@ -3,7 +3,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::run::{extension, stored, write_figure};
-use super::{Config, Record, ResultsError, fit, grid, without};
+use super::{Config, GroupSpec, Record, ResultsError, fit, grid, groups, without};
 use crate::figure::{FigureError, Format};
 use crate::io::atomically;
 
@@ -80,7 +80,8 @@ fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
     let Some(example) = finished.first() else { return Ok(()) };
     let columns = config.columns.iter().map(|column| (&column.key, "table".to_owned()));
     let plots = config.plots.iter().flat_map(|(name, p)| p.keys().map(move |key| (key, format!("plots.{name}"))));
-    for (key, table) in columns.chain(plots) {
+    let groups = config.groups.iter().flat_map(GroupSpec::keys).map(|key| (key, "groups".to_owned()));
+    for (key, table) in columns.chain(groups).chain(plots) {
         if finished.iter().all(|record| record.get(key).is_none()) {
             let part = key.split('.').next().unwrap_or(key);
             let known: Vec<String> = example.keys().into_iter().filter(|known| known.starts_with(part)).collect();
@@ -95,8 +96,10 @@ fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
 /// The records as Markdown, and the exponents fitted to the series of plots; `timings`: what differs from run to run instead
 /// of the rest. `None` if there is nothing of that.
 pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<String> {
-    let (grid, fits) = (grid::of_records(config, records, timings), fit::grids(config, records, timings));
-    if grid.is_none() && fits.is_empty() {
+    let grid = grid::of_records(config, records, timings);
+    let more: Vec<_> =
+        groups::grid(config, records, timings).into_iter().chain(fit::grids(config, records, timings)).collect();
+    if grid.is_none() && more.is_empty() {
         return None;
     }
     let mut text = format!("# {}\n\n", config.title);
@@ -114,7 +117,7 @@ pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<Strin
     for sentence in without::sentences(&config.without) {
         let _ = writeln!(text, "\n{sentence}");
     }
-    for (title, grid) in fits {
+    for (title, grid) in more {
         let _ = write!(text, "\n## {title}\n\n{}", grid.markdown());
     }
     Some(text)

@@ -72,7 +72,8 @@ fn what_fails_because_of_the_interruption_leaves_no_record() {
     let results = folder();
     let (threads, journal) = (std::num::NonZeroUsize::MIN, None);
     let shard = riemap::experiment::Shard::ALL;
-    let batch = riemap::experiment::Batch { configs: &configs, shard, results: results.path(), threads, journal };
+    let batch =
+        riemap::experiment::Batch { configs: &configs, shard, results: results.path(), threads, apart: None, journal };
     batch.run(&|| STOPPED.load(Ordering::SeqCst), &mut |_| {}).unwrap();
     let files: Vec<PathBuf> = fs::read_dir(results.path().join("study")).unwrap().map(|e| e.unwrap().path()).collect();
     assert_eq!(files, [results.path().join("study/mesh=quad,n=4.json")]);

@@ -67,7 +67,7 @@ pub fn batch(configs: &[Config], results: &Path, how: &How) -> Told {
     let stop = || how.stop_after != usize::MAX && written(results) >= how.stop_after;
     let mut told = Told::default();
     let threads = NonZeroUsize::new(how.threads).unwrap();
-    Batch { configs, shard: how.shard, results, threads, journal: how.journal }
+    Batch { configs, shard: how.shard, results, threads, apart: None, journal: how.journal }
         .run(&stop, &mut |event| match event {
             Event::Begun { config, .. } => told.order.push(format!("+{}", config.name)),
             Event::Ended { config, record, .. } => {

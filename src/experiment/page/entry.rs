@@ -84,7 +84,7 @@ impl<'a> Entry<'a> {
         match () {
             () if self.records.is_empty() => Verdict::NotMade,
             () if self.count(Outcome::Refuted) > 0 => Verdict::Refuted,
-            () if self.count(Outcome::Failed) > 0 => Verdict::Failed,
+            () if self.count(Outcome::Failed) > 0 && !self.config.may_fail => Verdict::Failed,
             () if self.missing > 0 => Verdict::Incomplete,
             () if self.config.all_runs().iter().all(|run| run.expect.is_empty()) => Verdict::Unbounded,
             () => Verdict::Holds,
