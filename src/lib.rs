@@ -23,7 +23,7 @@
 //! |---|---|
 //! | [`surface`] | positions and polygons; [`Diagnosis`](surface::diagnosis::Diagnosis): what it is and what is wrong; [`Disc`](surface::disc::Disc) and how a surface is [cut](surface::cut) to one; [`digital`](surface::digital): voxels, their boundaries; estimated [`normals`](surface::normals); generated surfaces |
 //! | [`quad_graph`] | quads, ρ, boundary; rest lengths and areas; dual points |
-//! | [`energy`] | H, C, A, L, L' with all derivatives; `H + 0.5 L` as an expression |
+//! | [`energy`] | H, C, A, L, L', MIPS, SD with all derivatives; `H + 0.5 L` as an expression |
 //! | [`constraint`] | held vertices, shapes of the boundary, gauges; elimination x = Z y + x0 |
 //! | [`problem`], [`objective`] | the linear problem; the nonlinear one |
 //! | [`backend`] | direct solvers and minimisers by name |
@@ -34,6 +34,7 @@
 //! | [`verify`], [`libigl`] | the cotan equivalence, checked against libigl itself |
 //! | [`peer`] | maps of other programs, measured as ours are |
 //! | [`experiment`] | configurations, runs, tables, plots |
+//! | [`predicate`] | exact signs of areas |
 //! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
 //!
 //! # One map
@@ -81,6 +82,7 @@ pub mod map;
 pub mod objective;
 pub mod peer;
 pub mod periodic;
+pub mod predicate;
 pub mod problem;
 pub mod quad_graph;
 pub mod report;

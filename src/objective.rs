@@ -7,10 +7,13 @@ use crate::energy::conformal::Dirichlet;
 use crate::energy::{Block, Curvature, Energy, Polynomial};
 use crate::sparse::{Columns, Pattern, Stencils, pairs_of};
 
+/// Energies with their coefficients.
+pub type Terms = Vec<(f64, Box<dyn Energy>)>;
+
 /// `E(y) = Σ coefficient × energy(Z y + x0)`: all that a backend may know.
 pub struct Objective {
     /// The energies with their coefficients.
-    pub terms: Vec<(f64, Box<dyn Energy>)>,
+    pub terms: Terms,
     /// The unknowns.
     pub freedoms: Freedoms,
     /// What the size of a step is measured by.
@@ -61,6 +64,12 @@ impl Objective {
     pub fn stretch(&self, y: &[f64], p: &[f64]) -> Option<f64> {
         let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
         self.terms.iter().map(|(t, energy)| Some(t * energy.stretch(&z, &d)?)).sum()
+    }
+
+    /// How far one may go from y along p before E is no longer finite, but for rounding; see [`Energy::largest_step`].
+    pub fn largest_step(&self, y: &[f64], p: &[f64]) -> f64 {
+        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
+        self.terms.iter().map(|(_, energy)| energy.largest_step(&z, &d)).fold(f64::INFINITY, f64::min)
     }
 
     /// The coefficients of `t ↦ E(y + t p)`, where that is a polynomial.

@@ -113,6 +113,12 @@ pub struct EnergyRecord {
     pub L: Option<f64>,
     /// Metric, boundary edges.
     pub Lb: Option<f64>,
+    /// Conformal without folds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub MIPS: Option<f64>,
+    /// Isometric without folds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub SD: Option<f64>,
 }
 
 /// The solver.
@@ -195,7 +201,16 @@ impl EnergyRecord {
     /// The energies of a map.
     pub fn new(map: &Map) -> Self {
         let of = |name: &str| map.energies.iter().find(|(n, _)| *n == name).map(|(_, value)| *value);
-        EnergyRecord { total: map.total, H: of("H"), C: of("C"), A: of("A"), L: of("L"), Lb: of("Lb") }
+        EnergyRecord {
+            total: map.total,
+            H: of("H"),
+            C: of("C"),
+            A: of("A"),
+            L: of("L"),
+            Lb: of("Lb"),
+            MIPS: of("MIPS"),
+            SD: of("SD"),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use std::ops::Bound;
 
 use num_complex::Complex64;
 
-use super::predicate::orientation;
+use crate::predicate::orientation;
 
 /// Two edges of a closed polygon that meet where they should not: edge k runs from vertex k to the next. `None`: the
 /// polygon is simple. Exact.

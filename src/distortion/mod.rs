@@ -3,14 +3,13 @@
 mod boundary;
 mod corner;
 mod image;
-mod predicate;
 mod singular;
 mod validity;
 
+pub use crate::predicate::orientation;
 pub use boundary::{boundary_crossing, out_of_order};
 pub use corner::corner_errors;
 pub use image::Image;
-pub use predicate::orientation;
 pub use singular::{FaceMap, face_maps};
 pub use validity::Validity;
 

@@ -1,8 +1,8 @@
 use num_complex::Complex64;
 
 use super::Image;
-use super::predicate::{diagonals_cross_left, orientation};
 use crate::energy::conformal;
+use crate::predicate::{diagonals_cross_left, orientation};
 use crate::quad_graph::QuadGraph;
 use crate::surface::disc::Disc;
 use crate::surface::vector::{cross, dot, norm, sub};

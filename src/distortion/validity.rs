@@ -1,7 +1,7 @@
 use num_complex::Complex64;
 
 use super::boundary::boundary_crossing;
-use super::predicate::orientation;
+use crate::predicate::orientation;
 use crate::surface::disc::Disc;
 use crate::surface::edges::{Edges, next_in};
 

@@ -1,32 +1,41 @@
-//! The energies of a map, `E = α H + β C + δ A + γ L + γ' L'`. A new one is one file and one row of [`ENERGIES`].
+//! The energies of a map, `E = α H + β C + δ A + γ L + γ' L'`, and those of maps without folds. A new one is one file and one row
+//! of [`ENERGIES`].
 //!
 //! Most are sums of squares of residuals, each a polynomial of a few vertices: they implement [`SquareSum`], and have
-//! value, gradient, both Hessians and the exact polynomial along a line from it.
+//! value, gradient, both Hessians and the exact polynomial along a line from it. MIPS and SD are sums of a [`Density`] over triangles.
 
 mod authalic;
 mod circle;
 pub mod conformal;
+mod error;
 mod expression;
 mod metric;
+mod mips;
 mod order;
 mod polynomial;
 mod square_sum;
+mod symmetric_dirichlet;
+mod triangle_sum;
 
 pub use authalic::Authalic;
 pub use circle::Circle;
 pub use conformal::Conformal;
+pub use error::EnergyError;
 pub use expression::{Expression, ExpressionError, Term};
 pub use metric::Metric;
+pub use mips::{Mips, MipsDensity};
 pub use order::Order;
 pub use polynomial::Polynomial;
 pub use square_sum::{LocalMap, SquareSum, jacobian};
+pub use symmetric_dirichlet::{SymmetricDirichlet, SymmetricDirichletDensity};
+pub use triangle_sum::{Density, Derivatives, TriangleSum};
 
 use num_complex::Complex64;
 
 use crate::quad_graph::QuadGraph;
 use crate::quad_graph::metric::RestMetric;
 use crate::sparse::Stencils;
-use conformal::{NonPositiveRho, Weight};
+use conformal::Weight;
 
 /// Second derivatives of a piece with respect to (Re z, Im z) of its vertices, one behind the other; rows and columns
 /// past twice its number of vertices are 0.
@@ -36,7 +45,8 @@ pub type Block = [[f64; 8]; 8];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Curvature {
-    /// `2 Jᵀ J`: positive semi-definite, right where the residuals vanish.
+    /// A positive semi-definite model of them: of squares `2 Jᵀ J`, right where the residuals vanish; of others that are not convex
+    /// all of them, without the negative eigenvalues of each piece.
     GaussNewton,
     /// All of them.
     Exact,
@@ -44,7 +54,7 @@ pub enum Curvature {
 
 /// A function of a map z (`nv` complex values) that is a sum over pieces of at most four vertices.
 pub trait Energy: Sync {
-    /// Its name in expressions: H, C, A, L, Lb.
+    /// Its name in expressions: H, C, A, L, Lb, MIPS, SD.
     fn name(&self) -> &'static str;
 
     /// E(z); +∞ where z is not admitted.
@@ -79,6 +89,12 @@ pub trait Energy: Sync {
 
     /// The coefficients of `t ↦ E(z + t d)`, where that is a polynomial.
     fn along(&self, z: &[Complex64], d: &[Complex64]) -> Option<Polynomial>;
+
+    /// How far one may go from z, where E is finite, along d before E is not: the supremum of the t up to which z + t d is admitted, but
+    /// for rounding. +∞ where all of the line is.
+    fn largest_step(&self, _z: &[Complex64], _d: &[Complex64]) -> f64 {
+        f64::INFINITY
+    }
 }
 
 /// What an energy is made from.
@@ -102,8 +118,10 @@ pub struct Row {
     pub about: &'static str,
     /// Whether it sees lengths or areas, and so fixes the scale of the map.
     pub metric: bool,
+    /// Whether it is +∞ where a face is turned over: a minimisation must start from a map without folds.
+    pub flip_free: bool,
     /// Makes it.
-    pub make: fn(Rest) -> Result<Box<dyn Energy>, NonPositiveRho>,
+    pub make: fn(Rest) -> Result<Box<dyn Energy>, EnergyError>,
 }
 
 /// All energies.
@@ -112,31 +130,50 @@ pub static ENERGIES: &[Row] = &[
         name: "H",
         about: "conformal: Σ w |z3 − z1 − iρ(z2 − z0)|²",
         metric: false,
+        flip_free: false,
         make: |rest| Ok(Box::new(Conformal::new(rest)?)),
     },
     Row {
         name: "C",
         about: "circle: Σ over free boundary vertices (|z|² − 1)²",
         metric: false,
+        flip_free: false,
         make: |rest| Ok(Box::new(Circle::new(rest))),
     },
     Row {
         name: "A",
         about: "authalic: Σ over quads (area² − rest area²)²",
         metric: true,
+        flip_free: false,
         make: |rest| Ok(Box::new(Authalic::new(rest)?)),
     },
     Row {
         name: "L",
         about: "metric: Σ over edges of the quad graph (|zi − zj|² − |vi − vj|²)²",
         metric: true,
+        flip_free: false,
         make: |rest| Ok(Box::new(Metric::all_edges(rest)?)),
     },
     Row {
         name: "Lb",
         about: "L': as L, over the boundary edges",
         metric: true,
+        flip_free: false,
         make: |rest| Ok(Box::new(Metric::boundary_edges(rest))),
+    },
+    Row {
+        name: "MIPS",
+        about: "conformal without folds: Σ over triangles (quads: their corners) ½(σ1/σ2 + σ2/σ1) − 1; +∞ where one is turned over",
+        metric: false,
+        flip_free: true,
+        make: |rest| Ok(Box::new(Mips::new(rest)?)),
+    },
+    Row {
+        name: "SD",
+        about: "isometric without folds: Σ over triangles (quads: their corners) σ1² + σ2² + σ1⁻² + σ2⁻² − 4, the symmetric Dirichlet energy",
+        metric: true,
+        flip_free: true,
+        make: |rest| Ok(Box::new(SymmetricDirichlet::new(rest)?)),
     },
 ];
 

@@ -2,6 +2,7 @@ use crate::backend::convex::ConvexError;
 use crate::backend::reduced::Unreduced;
 use crate::backend::{MinimiseError, SolveError, Unsuitable};
 use crate::constraint::ConstraintError;
+use crate::energy::EnergyError;
 use crate::energy::conformal::NonPositiveRho;
 use crate::periodic::PeriodicError;
 use crate::quad_graph::QuadGraphError;
@@ -149,6 +150,17 @@ pub enum MapError {
         /// What to do.
         help: &'static str,
     },
+    /// No map without folds to start from.
+    #[error(
+        "no map without folds was found to start from: of the last one {folded} faces are folded (the first: {first:?}); the boundary must \
+         be held on a convex curve, and parts of the surface must not be too small for double precision there"
+    )]
+    NoValidStart {
+        /// Faces that are folded.
+        folded: usize,
+        /// The first of them, as the source numbers them.
+        first: Option<u32>,
+    },
     /// No convex combination map.
     #[error(transparent)]
     Convex(#[from] ConvexError),
@@ -158,6 +170,9 @@ pub enum MapError {
     /// Integral weights that are undefined.
     #[error(transparent)]
     NonPositiveRho(#[from] NonPositiveRho),
+    /// An energy that the surface does not have.
+    #[error(transparent)]
+    Energy(#[from] EnergyError),
     /// Constraints that contradict or do not suffice.
     #[error(transparent)]
     Constraint(#[from] ConstraintError),
@@ -195,6 +210,7 @@ impl MapError {
     pub fn is_of_integral_weights(&self) -> bool {
         match self {
             MapError::NonPositiveRho(_) | MapError::Reduced(Unreduced::NonPositiveRho(_)) => true,
+            MapError::Energy(EnergyError::NonPositiveRho(_)) => true,
             MapError::Solve(SolveError::Unsuitable { reason, .. }) => matches!(reason, Unsuitable::NonPositiveRho(_)),
             _ => false,
         }

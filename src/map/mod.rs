@@ -3,6 +3,7 @@
 mod convex;
 mod domain;
 mod error;
+mod flip_free;
 mod linear;
 mod nonlinear;
 mod options;
@@ -209,7 +210,7 @@ impl MapOptions {
         if self.keep_order && !expression.has("C") {
             return Err(MapError::NoCircle { energy: expression.to_string() });
         }
-        if !expression.has("H") && !expression.has("L") {
+        if !expression.has("H") && !expression.has("L") && !flip_free::is_flip_free(&expression) {
             return Err(MapError::Undetermined { energy: expression.to_string() });
         }
         let h_alone = expression.rows().all(|row| row.name == "H") && expression.has("H");

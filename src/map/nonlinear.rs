@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
+use super::flip_free::{self, hold_unseen, is_flip_free};
 use super::options::hold_pins;
 use super::reduced::{self, Attempt};
 use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome};
@@ -12,8 +13,8 @@ use crate::backend::nonlinear::smallest_singular_value;
 use crate::backend::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
 use crate::constraint::{Fixed, Freedoms, float_white_back, hold_gauge, on_circle, spread_points};
 use crate::energy::conformal::{Dirichlet, Weight};
-use crate::energy::{Energy, Expression, Order, Rest, energy};
-use crate::objective::Objective;
+use crate::energy::{Expression, Order, Rest, energy};
+use crate::objective::{Objective, Terms};
 use crate::problem::LinearProblem;
 use crate::quad_graph::QuadGraph;
 use crate::quad_graph::metric::RestMetric;
@@ -52,12 +53,20 @@ pub(super) fn minimise(
     };
     let backend = choose(&options.solver)?;
     let metric = domain.rest_metric(options)?;
+    let flip_free = is_flip_free(expression);
     let z = match start {
         Some(z) => z,
+        None if flip_free => flip_free::start(options, expression, domain, &metric, &anchors.points, watch)?,
         None => initial(options, expression, disc, graph, &anchors)?,
     };
     let fixed = held(options, expression, disc, graph, &anchors, &z)?;
-    let problem = Problem { options, expression, graph, metric: &metric, fixed: &fixed };
+    let unit = if flip_free { flip_free::unit_of_shapes(options, expression, graph, &metric, &z) } else { 1.0 };
+    let mut problem = Problem { options, expression, graph, metric: &metric, fixed: fixed.clone(), unit };
+    let mut unseen = Vec::new();
+    if flip_free {
+        let terms = problem.terms()?;
+        unseen = hold_unseen(&mut problem.fixed, &terms, &z);
+    }
     let objective = problem.objective()?;
     let start = objective.freedoms.restrict(&z);
     let rule = StopRule { tolerance: options.tolerance, reference: None, max_iterations: options.max_iterations };
@@ -76,6 +85,10 @@ pub(super) fn minimise(
     let only_diagonals = expression.has("A") && !["L", "Lb", "C"].iter().any(|name| expression.has(name));
     if only_diagonals && options.boundary != Boundary::Fixed && options.pins.is_empty() {
         float_white_back(graph, &metric, &mut z);
+    }
+    if !unseen.is_empty() {
+        let placed = domain.with_dual_vertices(z[..graph.primal].to_vec(), &fixed);
+        unseen.iter().for_each(|&v| z[v as usize] = placed[v as usize]);
     }
     let energies = objective.values(&minimum.y);
     let total = objective.terms.iter().zip(&energies).map(|((t, _), (_, e))| t * e).sum();
@@ -253,6 +266,9 @@ fn held(
             let first = graph.boundary[0];
             fixed.hold_on_line(first, Complex64::ZERO, z[first as usize]);
         }
+        (false, _) if is_flip_free(expression) && !["A", "L", "Lb"].iter().any(|name| expression.has(name)) => {
+            flip_free::hold_gauge(&mut fixed, expression, graph, z);
+        }
         (false, _) => hold_gauge(&mut fixed, expression, graph, z),
     }
     Ok(fixed)
@@ -264,22 +280,31 @@ struct Problem<'a> {
     expression: &'a Expression,
     graph: &'a QuadGraph,
     metric: &'a RestMetric,
-    fixed: &'a Fixed,
+    fixed: Fixed,
+    /// The factor on energies of shapes alone.
+    unit: f64,
 }
 
 impl Problem<'_> {
-    fn objective(&self) -> Result<Objective, MapError> {
-        let Problem { options, graph, metric, fixed, .. } = *self;
-        let held: Vec<bool> = (0..graph.vertices as u32).map(|v| fixed.holds(v)).collect();
+    /// The energies with their coefficients.
+    fn terms(&self) -> Result<Terms, MapError> {
+        let Problem { options, graph, metric, .. } = *self;
+        let held: Vec<bool> = (0..graph.vertices as u32).map(|v| self.fixed.holds(v)).collect();
         let rest = Rest { graph, metric, weight: options.weight, held: &held };
-        let mut terms: Vec<(f64, Box<dyn Energy>)> = Vec::new();
+        let mut terms = Terms::new();
         for term in self.expression.terms.iter().filter(|term| term.coefficient > 0.0) {
             if let Some(row) = energy(term.name) {
-                terms.push((term.coefficient, (row.make)(rest)?));
+                let unit = if row.flip_free && !row.metric { self.unit } else { 1.0 };
+                terms.push((unit * term.coefficient, (row.make)(rest)?));
             }
         }
-        let freedoms = Freedoms::new(graph.vertices, fixed);
-        Ok(Objective { terms, freedoms, norm: Dirichlet::new(graph, options.weight) })
+        Ok(terms)
+    }
+
+    fn objective(&self) -> Result<Objective, MapError> {
+        let Problem { options, graph, .. } = *self;
+        let freedoms = Freedoms::new(graph.vertices, &self.fixed);
+        Ok(Objective { terms: self.terms()?, freedoms, norm: Dirichlet::new(graph, options.weight) })
     }
 
     /// Whether L' is stiff beside H.

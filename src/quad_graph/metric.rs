@@ -1,6 +1,7 @@
-//! Rest lengths and areas, which the metric energies compare a map with.
+//! Rest lengths, areas and triangles, which energies compare a map with.
 
 use super::dual::DualPoint;
+use super::triangles::{RestTriangle, rest_triangles};
 use super::{QuadGraph, QuadGraphError, RestSource, TangentPlanes, difference};
 use crate::surface::disc::Disc;
 use crate::surface::edges::Edges;
@@ -20,6 +21,8 @@ pub struct RestMetric {
     pub area: Vec<f64>,
     /// ½ (|(v3−v0)×(v2−v0)| + |(v2−v0)×(v1−v0)|) of each quad (`nf`): its area folded along d02.
     pub folded_area: Vec<f64>,
+    /// The triangles of the mesh, or of the corners of its quads.
+    pub triangles: Vec<RestTriangle>,
 }
 
 impl RestMetric {
@@ -56,6 +59,7 @@ impl RestMetric {
             area: (0..edges.len()).map(|e| quads(e).map(|q| 0.5 * area_of(q)).sum()).collect(),
             folded_area,
             edges: edges.ends,
+            triangles: rest_triangles(disc, planes),
         }
     }
 
@@ -73,6 +77,7 @@ impl RestMetric {
             length: Vec::with_capacity(corners + graph.boundary.len()),
             area: Vec::with_capacity(corners + graph.boundary.len()),
             folded_area: vec![0.0; graph.quads.len()],
+            triangles: rest_triangles(disc, None),
         };
         for f in 0..disc.faces.len() {
             let range = disc.faces.corner_range(f);

@@ -8,11 +8,13 @@ pub mod metric;
 mod periods;
 pub mod rho;
 mod tangent;
+mod triangles;
 
 pub use curvature::curvature;
 pub use periods::{Periods, PeriodsError};
 pub(crate) use tangent::own_normal;
 pub use tangent::{RestSource, TangentPlanes};
+pub use triangles::RestTriangle;
 
 use num_complex::Complex64;
 

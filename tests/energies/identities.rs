@@ -7,9 +7,11 @@ use riemap::energy::{ENERGIES, Row};
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
 use riemap::quad_graph::metric::RestMetric;
 
+/// Of energies that are finite everywhere.
 fn values(case: &Case, weight: Weight, z: &[Complex64]) -> Vec<(&'static Row, f64)> {
     let held = vec![false; case.graph.vertices];
-    let made = ENERGIES.iter().filter_map(|row| Some((row, (row.make)(case.rest(weight, &held)).ok()?)));
+    let folds = ENERGIES.iter().filter(|row| !row.flip_free);
+    let made = folds.filter_map(|row| Some((row, (row.make)(case.rest(weight, &held)).ok()?)));
     made.map(|(row, energy)| (row, energy.value(z))).collect()
 }
 

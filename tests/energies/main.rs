@@ -4,5 +4,6 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod derivatives;
+mod flip_free;
 mod identities;
 mod shared;

@@ -1,10 +1,12 @@
 use crate::common::*;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
+use riemap::backend::Silent;
+use riemap::backend::convex::{convex_map, edge_weights};
 use riemap::constraint::on_circle;
-use riemap::energy::ENERGIES;
 use riemap::energy::conformal::Weight;
 use riemap::energy::{Authalic, Circle, Conformal, Curvature, Energy, Metric, Order, Rest, SquareSum};
+use riemap::energy::{ENERGIES, Row};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
 use riemap::quad_graph::metric::RestMetric;
@@ -65,14 +67,37 @@ impl Case {
         z
     }
 
-    /// All energies that are defined, the barrier too.
+    /// All energies that are finite on maps that fold, where they are defined; the barrier too.
     pub fn energies(&self, weight: Weight, held: &[bool]) -> Vec<Box<dyn Energy>> {
         let rest = self.rest(weight, held);
-        let mut energies: Vec<Box<dyn Energy>> = ENERGIES.iter().filter_map(|row| (row.make)(rest).ok()).collect();
+        let rows = || ENERGIES.iter().filter(|row| !row.flip_free);
+        let mut energies: Vec<Box<dyn Energy>> = rows().filter_map(|row| (row.make)(rest).ok()).collect();
         let defined = weight == Weight::Unit || self.graph.min_re_rho() > 0.0;
-        assert_eq!(energies.len(), if defined { ENERGIES.len() } else { 2 }, "{}", self.name);
+        assert_eq!(energies.len(), if defined { rows().count() } else { 2 }, "{}", self.name);
         energies.push(Box::new(Order::new(&self.graph)));
         energies
+    }
+
+    /// Those that are infinite there.
+    pub fn flip_free(&self, weight: Weight) -> Vec<(&'static Row, Box<dyn Energy>)> {
+        let held = vec![false; self.graph.vertices];
+        let rows = ENERGIES.iter().filter(|row| row.flip_free);
+        rows.map(|row| (row, (row.make)(self.rest(weight, &held)).unwrap())).collect()
+    }
+
+    /// A map without folds, of an area like the surface's: means of neighbours, the boundary on a circle, all moved a little.
+    pub fn state_without_folds(&self, random: &mut Random) -> Vec<Complex64> {
+        let fixed = on_circle(&self.graph, 1.0, &[(0, 0.3)]).unwrap();
+        let uniform = edge_weights("uniform").unwrap();
+        let weights = (uniform.make)(&self.disc).unwrap();
+        let mut z = convex_map(&self.disc, &weights, &fixed, &mut Silent).unwrap().z;
+        z.resize(self.graph.vertices, Complex64::ZERO);
+        let stretch = random.real();
+        for z in &mut z {
+            *z = *z + 0.3 * stretch * z.conj() + 0.02 * random.complex();
+        }
+        assert!(self.flip_free(Weight::Unit).iter().all(|(_, energy)| energy.value(&z).is_finite()), "{}", self.name);
+        z
     }
 
     pub fn square_sums(&self, weight: Weight, held: &[bool]) -> Vec<Box<dyn SquareSum>> {

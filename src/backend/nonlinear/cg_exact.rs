@@ -1,6 +1,6 @@
 use argmin::core::{Error, KV, Problem, Solver};
 
-use super::executor::{Iterate, Limits, Target, dot, evaluated, run};
+use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::backend::Observer;
 use crate::objective::Objective;
@@ -35,14 +35,16 @@ struct ExactCg {
     direction: Vec<f64>,
 }
 
-/// How far to go along p from y: the exact minimum where the energy is a polynomial, else backtracking from 1.
+/// How far to go along p from y: the exact minimum where the energy is a polynomial, else backtracking from 1, or from short of where
+/// the energy is no longer finite.
 pub(super) fn step_length(objective: &Objective, y: &[f64], p: &[f64]) -> Option<f64> {
     let at = |t: f64| y.iter().zip(p).map(|(y, p)| y + t * p).collect::<Vec<_>>();
     match objective.along(y, p) {
         Some(polynomial) => polynomial.minimum_ahead(),
         None => {
             let (here, slope) = (objective.value(y), dot(&objective.gradient(y), p));
-            let halvings = (0..60).map(|k| 0.5f64.powi(k));
+            let longest = (LARGEST_SHARE * objective.largest_step(y, p)).min(1.0);
+            let halvings = (0..60).map(|k| longest * 0.5f64.powi(k));
             halvings.into_iter().find(|&t| objective.value(&at(t)) <= here + 1e-4 * t * slope)
         }
     }

@@ -19,6 +19,9 @@ pub(super) struct Target<'a> {
     evaluations: &'a Cell<usize>,
 }
 
+/// Which share of the way to where the energy is no longer finite a step may go.
+pub(super) const LARGEST_SHARE: f64 = 0.9;
+
 /// Evaluations after which a step is given up: at the level of rounding a line search may never end.
 const EVALUATIONS: usize = 200;
 
@@ -176,11 +179,11 @@ pub(super) fn start_gradient_norm(objective: &Objective, start: &[f64]) -> Resul
 }
 
 /// What the gradient of a start far from the minimum might be, times 10⁻⁶: its own gradient is no measure where the start
-/// is the minimum and the gradient mere rounding. Probed at the start scaled by 1.1.
+/// is the minimum and the gradient mere rounding. Probed at the start scaled by 1.1; 0 where the energy is not finite there.
 fn gradient_of_a_start(objective: &Objective, start: &[f64]) -> f64 {
     let probe: Vec<f64> = start.iter().map(|y| 1.1 * y).collect();
     let gradient_norm = norm(&objective.gradient(&probe));
-    if gradient_norm.is_finite() { 1e-6 * gradient_norm } else { 0.0 }
+    if gradient_norm.is_finite() && objective.value(&probe).is_finite() { 1e-6 * gradient_norm } else { 0.0 }
 }
 
 /// Runs `solver` from `start` until the rule says stop.

@@ -1,6 +1,6 @@
 use argmin::core::{Error, KV, Problem, Solver};
 
-use super::executor::{Iterate, Limits, Target, dot, evaluated, run};
+use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::backend::{Observer, Phase};
 use crate::energy::Curvature;
@@ -140,7 +140,16 @@ impl Damped<'_> {
         let size = |v: &[f64]| dot(v, &columns.multiply(damping, v));
         // −(g·p + ½ p·B p) with (B + λM) p = −g.
         let length = size(&p);
-        let predicted = 0.5 * (self.lambda * length - dot(g, &p));
+        let mut predicted = 0.5 * (self.lambda * length - dot(g, &p));
+        let share = LARGEST_SHARE * self.objective.largest_step(y, &p);
+        if share < 1.0 {
+            // −(t g·p + ½ t² p·B p)
+            let along = dot(g, &p);
+            predicted = -share * along + 0.5 * share * share * (along + self.lambda * length);
+            p.iter_mut().for_each(|p| *p *= share);
+            self.factor = Some(factor);
+            return Some((p, predicted));
+        }
         if self.curvature == Curvature::GaussNewton {
             let mut bend: Vec<f64> = self.objective.bending(y, &p).iter().map(|b| -0.5 * b).collect();
             factor.solve_in_place(&mut bend);

@@ -41,7 +41,7 @@ pub struct Arguments {
     /// Leave a face out (from 0); repeatable
     #[arg(long, value_name = "F")]
     pub(super) remove_face: Vec<u32>,
-    /// Energy, in place of the one of --boundary: terms H C A L Lb (L' is Lb) with coefficients, as in "H + 0.5 L + A"
+    /// Energy, in place of the one of --boundary: terms H C A L Lb (L' is Lb) MIPS SD with coefficients, as in "H + 0.5 L + A"
     #[arg(long, value_name = "E", value_parser = Expression::from_str)]
     pub(super) energy: Option<Expression>,
     /// What a fixed boundary is laid on, by arc length: circle, square [default: circle]

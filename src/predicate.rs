@@ -36,7 +36,7 @@ fn fits(x: f64) -> bool {
 
 /// Whether (z2 − z0) × (z3 − z1) > 0: the sign of the volume of the tetrahedron with one diagonal at height 0 and the
 /// other at height 1.
-pub(super) fn diagonals_cross_left([z0, z1, z2, z3]: [Complex64; 4]) -> bool {
+pub(crate) fn diagonals_cross_left([z0, z1, z2, z3]: [Complex64; 4]) -> bool {
     let at = |z: Complex64, height: f64| Coord3D { x: z.re, y: z.im, z: height };
     orient3d(at(z0, 0.0), at(z2, 0.0), at(z1, 1.0), at(z3, 1.0)) > 0.0
 }

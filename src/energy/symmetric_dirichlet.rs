@@ -1,0 +1,30 @@
+use super::triangle_sum::{Density, Derivatives, TriangleSum};
+
+/// The density of the symmetric Dirichlet energy, `f = σ1² + σ2² + σ1⁻² + σ2⁻² − 4 = 2(|a|² + |b|²)(1 + 1/(|a|² − |b|²)²) − 4`: 0 where the
+/// triangle keeps its lengths (Smith, Schaefer, *Bijective parameterization with free boundaries*, 2015; what SLIM minimises, but for the 4).
+pub struct SymmetricDirichletDensity;
+
+/// SD, `Σ w (σ1² + σ2² + σ1⁻² + σ2⁻² − 4)`.
+pub type SymmetricDirichlet = TriangleSum<SymmetricDirichletDensity>;
+
+impl Density for SymmetricDirichletDensity {
+    const NAME: &'static str = "SD";
+
+    // 2(A + B) − 2J = 4B, and J + 1/J − 2 = (J − 1)²/J: nothing cancels near an isometry.
+    fn value(_a: f64, b: f64, j: f64) -> f64 {
+        // 2(A + B)(1 + J⁻²) − 4 = 4B(1 + J⁻²) + 2(J − 1)²/J
+        4.0 * b * (1.0 + 1.0 / (j * j)) + 2.0 * (j - 1.0) * (j - 1.0) / j
+    }
+
+    fn derivatives(a: f64, b: f64, j: f64) -> Derivatives {
+        let (both, slope) = (2.0 * (1.0 + 1.0 / (j * j)), 4.0 * ((a + b) / j) / (j * j));
+        let (cube, bend) = (8.0 / (j * j * j), 12.0 * ((a + b) / j) / (j * j * j));
+        Derivatives {
+            a: both - slope,
+            b: both + slope,
+            aa: a * (bend - cube),
+            ab: -bend * (a * b).sqrt(),
+            bb: b * (bend + cube),
+        }
+    }
+}

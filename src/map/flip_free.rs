@@ -1,0 +1,127 @@
+//! What energies of maps without folds, +∞ elsewhere, need beside the others: a start without folds, a gauge, and a place for the dual
+//! vertices that they do not see.
+
+use num_complex::Complex64;
+
+use super::{Boundary, Domain, MapError, MapOptions};
+use crate::backend::Observer;
+use crate::backend::convex::{convex_map, edge_weights};
+use crate::constraint::{Fixed, on_circle, spread_points};
+use crate::energy::conformal::Weight;
+use crate::energy::{Energy, Expression};
+use crate::quad_graph::QuadGraph;
+use crate::quad_graph::metric::RestMetric;
+
+/// Whether the energy is +∞ where faces fold.
+pub(super) fn is_flip_free(expression: &Expression) -> bool {
+    expression.rows().any(|row| row.flip_free)
+}
+
+/// A map without folds: every inner vertex a mean of its neighbours, the boundary where a fixed one is held, else on a circle by arc
+/// length between `anchors`; of the surface's area where the energy sees lengths or areas, of radius 1 where it does not.
+pub(super) fn start(
+    options: &MapOptions,
+    expression: &Expression,
+    domain: &Domain,
+    metric: &RestMetric,
+    anchors: &[(usize, f64)],
+    watch: &mut dyn Observer,
+) -> Result<Vec<Complex64>, MapError> {
+    let graph = &domain.graph;
+    let fixed = match options.boundary {
+        Boundary::Fixed => options.fixed(&domain.disc, graph)?,
+        _ => on_circle(graph, 1.0, if anchors.is_empty() { &[(0, 0.0)] } else { anchors })?,
+    };
+    let z = domain.convex_start(&fixed, watch)?;
+    let mut z = domain.with_dual_vertices(z, &fixed);
+    if options.boundary != Boundary::Fixed && !expression.has("C") && expression.rows().any(|row| row.metric) {
+        let scale = (area_at_rest(metric) / image_area(graph, &z)).sqrt();
+        z.iter_mut().for_each(|z| *z *= scale);
+    }
+    Ok(z)
+}
+
+impl Domain {
+    /// The vertices of the mesh under a convex combination map that is one-to-one, exactly: of mean-value weights, of uniform ones, of
+    /// outward ones, the first.
+    ///
+    /// # Errors
+    /// None is: the boundary is held on no convex curve, or double precision does not suffice.
+    pub(super) fn convex_start(&self, fixed: &Fixed, watch: &mut dyn Observer) -> Result<Vec<Complex64>, MapError> {
+        // Where an angle is 0 or π weights that see no geometry are left.
+        let map_by = |name: &str, watch: &mut dyn Observer| {
+            let weights = edge_weights(name).and_then(|row| (row.make)(&self.disc))?;
+            convex_map(&self.disc, &weights, fixed, watch)
+        };
+        let first = match map_by("mean-value", watch) {
+            Ok(solution) => solution,
+            Err(_) => map_by("uniform", watch)?,
+        };
+        let (solution, _) = self.first_one_to_one((first, "mean-value"), fixed, watch)?;
+        let validity = self.validity(&solution.z);
+        match validity.is_one_to_one() {
+            true => Ok(solution.z),
+            false => {
+                Err(MapError::NoValidStart { folded: validity.folded.len(), first: validity.folded.first().copied() })
+            }
+        }
+    }
+}
+
+/// The signed area inside the boundary of the image.
+pub(super) fn image_area(graph: &QuadGraph, z: &[Complex64]) -> f64 {
+    let next = graph.boundary.iter().cycle().skip(1);
+    let pairs = graph.boundary.iter().zip(next);
+    pairs.map(|(&v, &w)| 0.5 * (z[v as usize].conj() * z[w as usize]).im).sum()
+}
+
+/// The area of the surface.
+pub(super) fn area_at_rest(metric: &RestMetric) -> f64 {
+    metric.triangles.iter().map(|t| t.area).sum()
+}
+
+/// The factor on energies that see shapes alone, and weigh them by areas at rest: what the image's area is to that of the surface, so that
+/// they are of one unit with the others. 1 where these see lengths or areas, and the two areas are nearly the same.
+pub(super) fn unit_of_shapes(
+    options: &MapOptions,
+    expression: &Expression,
+    graph: &QuadGraph,
+    metric: &RestMetric,
+    z: &[Complex64],
+) -> f64 {
+    let integral = options.weight == Weight::Integral;
+    let free = expression.rows().any(|row| row.metric) && options.boundary != Boundary::Fixed;
+    if integral && !free { image_area(graph, z) / area_at_rest(metric) } else { 1.0 }
+}
+
+/// Holds what rigid motions leave free where no other gauge does (energies of lengths), or similarities (of angles alone): the first
+/// boundary vertex and the direction to the next one of the mesh, or two boundary vertices opposite each other.
+pub(super) fn hold_gauge(fixed: &mut Fixed, expression: &Expression, graph: &QuadGraph, z: &[Complex64]) {
+    let at = |v: u32| z[v as usize];
+    if expression.rows().any(|row| row.metric) {
+        let mut mesh = graph.boundary.iter().copied().filter(|&v| !graph.is_dual(v));
+        if let (Some(first), Some(next)) = (mesh.next(), mesh.next()) {
+            fixed.hold(first, at(first));
+            fixed.hold_on_line(next, at(first), at(next));
+        }
+    } else {
+        for k in spread_points(graph, 2) {
+            fixed.hold(graph.boundary[k], at(graph.boundary[k]));
+        }
+    }
+}
+
+/// Holds the vertices that none of the energies sees where they are, and names them.
+pub(super) fn hold_unseen(fixed: &mut Fixed, energies: &[(f64, Box<dyn Energy>)], z: &[Complex64]) -> Vec<u32> {
+    let mut seen = vec![false; z.len()];
+    for (_, energy) in energies {
+        for &v in &energy.stencils().vertices {
+            seen[v as usize] = true;
+        }
+    }
+    let unseen: Vec<u32> = (0..z.len() as u32).filter(|&v| !seen[v as usize] && !fixed.holds(v)).collect();
+    for &v in &unseen {
+        fixed.hold(v, z[v as usize]);
+    }
+    unseen
+}
