@@ -144,13 +144,28 @@ pub struct SolverRecord {
     pub residual: Option<f64>,
     /// Wall-clock seconds.
     pub seconds: Seconds,
+    /// Processor seconds, all threads; `None` where the system does not say.
+    pub cpu_seconds: Option<Seconds>,
+    /// The most memory that the process has held at once, in bytes; `None` where the system does not say.
+    pub peak_bytes: Option<u64>,
     /// Smallest singular value of the Jacobian, of nonlinear problems.
     pub smallest_singular_value: Option<f64>,
     /// `circle`, `lengths`: what the boundary meets exactly, H the lowest under it; none: the energy's minimum.
     pub exactly: Option<Exactly>,
 }
 
-/// Wall-clock seconds by phase.
+/// What a run took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// By the clock on the wall.
+    pub seconds: Seconds,
+    /// Of the processor, all threads.
+    pub cpu_seconds: Option<Seconds>,
+    /// The most memory held at once, in bytes.
+    pub peak_bytes: Option<u64>,
+}
+
+/// Seconds by phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
     /// Reading or generating the surface.
@@ -178,7 +193,7 @@ pub struct ErrorRecord {
 
 impl Report {
     /// The record of a map.
-    pub fn new(input: &Input, mapped: &Mapped, seconds: Seconds) -> Self {
+    pub fn new(input: &Input, mapped: &Mapped, cost: Cost) -> Self {
         let Mapped { component, domain, map, distortion, validity, .. } = mapped;
         let Domain { disc, graph, .. } = domain;
         // The exact periods of generated surfaces are periods.
@@ -189,7 +204,7 @@ impl Report {
             cut: Some(mapped.cut.clone()).filter(|cut| !cut.is_empty()),
             quad_graph: QuadGraphRecord::new(graph),
             energy: EnergyRecord::new(map),
-            solver: SolverRecord::new(map, validity, seconds),
+            solver: SolverRecord::new(map, validity, cost),
             distortion: distortion.clone(),
             periods,
             error: input.exact.as_ref().filter(|_| map.anchored).map(|w| ErrorRecord::new(w, disc, map)),
@@ -265,7 +280,7 @@ impl QuadGraphRecord {
 
 impl SolverRecord {
     /// The record of a solution.
-    pub fn new(map: &Map, validity: &Validity, seconds: Seconds) -> Self {
+    pub fn new(map: &Map, validity: &Validity, cost: Cost) -> Self {
         SolverRecord {
             backend: map.backend,
             status: map.outcome.name(),
@@ -275,7 +290,9 @@ impl SolverRecord {
             iterations: map.iterations,
             gradient_norm: map.gradient_norm,
             residual: map.residual,
-            seconds,
+            seconds: cost.seconds,
+            cpu_seconds: cost.cpu_seconds,
+            peak_bytes: cost.peak_bytes,
             smallest_singular_value: map.smallest_singular_value,
             exactly: map.exactly,
         }

@@ -105,9 +105,9 @@ impl Task for MapTask {
         let mut watch = if traced { Stopwatch::counting() } else { Stopwatch::start() };
         let input = self.surface.open()?;
         let mapped = map::run(&input, &self.options, &mut watch)?;
-        let seconds = watch.seconds();
-        let mut result = untimed(Report::new(&input, &mapped, seconds))?;
-        let mut timings = serde_json::to_value(seconds)?;
+        let cost = watch.cost();
+        let mut result = untimed(Report::new(&input, &mapped, cost))?;
+        let mut timings = serde_json::to_value(cost.seconds)?;
         if traced {
             let (numbers, times) = trace(watch.trace(), mapped.map.total);
             result["trace"] = numbers;
@@ -122,12 +122,12 @@ impl Task for MapTask {
     }
 }
 
-/// A report as records have it: without times, which have a place of their own there, and without the walks along the mesh, which are
+/// A report as records have it: without times and memory, which have a place of their own there, and without the walks along the mesh, which are
 /// as long as it is wide; their lengths remain.
 pub(super) fn untimed(report: Report) -> Result<Value, serde_json::Error> {
     let mut result = serde_json::to_value(report)?;
     if let Some(solver) = result.get_mut("solver").and_then(Value::as_object_mut) {
-        solver.remove("seconds");
+        solver.retain(|key, _| !["seconds", "cpu_seconds", "peak_bytes"].contains(&key.as_str()));
     }
     for walk in result.pointer_mut("/periods/loops").and_then(Value::as_array_mut).into_iter().flatten() {
         if let Some(walk) = walk.as_object_mut() {

@@ -98,7 +98,7 @@ impl Task for PeerTask {
                 (mapped?, Some(options.weight), seconds.assemble + seconds.factor + seconds.solve)
             }
         };
-        let mut result = untimed(Report::new(&input, &mapped, watch.seconds()))?;
+        let mut result = untimed(Report::new(&input, &mapped, watch.cost()))?;
         result["weight"] = json!(weight);
         if let Some(exact) = input.exact.as_ref().filter(|_| mapped.map.on_circle) {
             let [error, aligned] = errors(exact, mapped)?;

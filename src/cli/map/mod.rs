@@ -32,7 +32,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     let mapped = map::run(&input, &options, &mut progress);
     progress.clear();
     let mapped = mapped.with_context(|| input.source.clone())?;
-    let record = Report::new(&input, &mapped, progress.watch.seconds());
+    let record = Report::new(&input, &mapped, progress.watch.cost());
 
     for finding in &mapped.findings {
         eprintln!("riemap: note: {finding}: {}", finding.advice());
