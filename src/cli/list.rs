@@ -4,6 +4,7 @@ use anyhow::Result;
 
 use riemap::backend::convex::EDGE_WEIGHTS;
 use riemap::backend::{LINEAR_BACKENDS, MINIMISERS, reduced};
+use riemap::bench::{CASES, CONTESTANTS};
 use riemap::constraint::Shape;
 use riemap::energy::ENERGIES;
 use riemap::quad_graph::dual::DUAL_POINTS;
@@ -64,6 +65,18 @@ pub fn run(out: &mut dyn Write) -> Result<()> {
         "(--solver; auto takes reduced where it suits, else the next)",
         std::iter::once((reduced::NAME.to_owned(), reduced::DESCRIPTION.to_owned()))
             .chain(MINIMISERS.iter().map(|m| (m.name().to_owned(), m.description().to_owned()))),
+    )?;
+    section(
+        out,
+        "cases of bench",
+        "(riemap bench CASE…)",
+        CASES.iter().map(|c| (c.name.to_owned(), c.about.to_owned())),
+    )?;
+    section(
+        out,
+        "contestants of bench",
+        "(peers where they are installed)",
+        CONTESTANTS.iter().map(|c| (c.name.to_owned(), format!("{} map: {}", c.kind.name(), c.about))),
     )?;
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod bench;
 mod display;
 mod index;
 mod info;
@@ -40,10 +41,12 @@ enum Command {
     Run(run::Arguments),
     /// Run every experiment of the clone, and draw its figures
     Reproduce(reproduce::Arguments),
+    /// Measure speed against peers, each run a process of its own
+    Bench(bench::Arguments),
     /// Make one run of an experiment, as `run` does where each has a process of its own
     #[command(hide = true)]
     RunOne(one::Arguments),
-    /// List surfaces, estimators of normals, energies, constraints, dual points and backends
+    /// List surfaces, estimators of normals, energies, constraints, dual points, backends and cases of bench
     List,
 }
 
@@ -55,6 +58,7 @@ pub fn run(arguments: Arguments, out: &mut dyn Write) -> anyhow::Result<()> {
         Command::Verify(arguments) => verify::run(&arguments, out),
         Command::Run(arguments) => run::run(&arguments, out),
         Command::Reproduce(arguments) => reproduce::run(&arguments, out),
+        Command::Bench(arguments) => bench::run(&arguments, out),
         Command::RunOne(arguments) => one::run(&arguments),
         Command::List => list::run(out),
     }

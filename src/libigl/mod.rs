@@ -29,4 +29,5 @@ pub use harmonic::{Harmonic, harmonic};
 pub use interpreter::Versions;
 pub use lscm::{Lscm, lscm};
 pub use settings::Settings;
+pub(crate) use settings::program;
 pub use slim::{Slim, slim};

@@ -43,8 +43,8 @@ fn target(variable: Option<OsString>) -> PathBuf {
 }
 
 /// A bare name is looked up in `PATH`; a path is made absolute, for calls run in a temporary folder.
-fn program(name: OsString) -> PathBuf {
-    let path = PathBuf::from(name);
+pub(crate) fn program(name: impl Into<PathBuf>) -> PathBuf {
+    let path = name.into();
     if path.components().count() > 1 { whole(&path) } else { path }
 }
 

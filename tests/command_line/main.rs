@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod bench;
 mod constraints;
 mod digital;
 mod extremes;
@@ -18,6 +19,7 @@ use std::process::Stdio;
 
 use riemap::backend::convex::EDGE_WEIGHTS;
 use riemap::backend::{LINEAR_BACKENDS, MINIMISERS};
+use riemap::bench::{CASES, CONTESTANTS};
 use riemap::constraint::Shape;
 use riemap::energy::ENERGIES;
 use riemap::quad_graph::dual::DUAL_POINTS;
@@ -90,6 +92,7 @@ fn list_names_every_row_of_every_table() {
     let names = names.chain(EDGE_WEIGHTS.iter().map(|w| w.name));
     let names = names.chain(ENERGIES.iter().map(|row| row.name));
     let names = names.chain(DUAL_POINTS.iter().map(|d| d.name())).chain(Shape::ALL.iter().map(|s| s.0));
+    let names = names.chain(CASES.iter().map(|c| c.name)).chain(CONTESTANTS.iter().map(|c| c.name));
     for name in names {
         assert!(list.lines().any(|line| line.split_whitespace().next() == Some(name)), "{name}");
     }

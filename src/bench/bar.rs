@@ -1,0 +1,161 @@
+//! The bars that the program is held to.
+
+use serde::Serialize;
+
+use super::record::{Outcome, Record};
+
+/// What is measured.
+#[derive(Clone, Copy, Debug)]
+enum Measure {
+    /// Processor seconds of the solve, the first contestant over the second.
+    Ratio(&'static str, &'static str),
+    /// The most memory of a contestant's process, in GB of 10⁹ bytes.
+    Peak(&'static str),
+    /// Processor seconds of a contestant's solve over those at the given smaller size.
+    Growth(&'static str, usize),
+    /// Processor seconds of a contestant's whole process over those of its solve.
+    Whole(&'static str),
+    /// The slowest of reading and writing, MB/s.
+    Slowest,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Bound {
+    AtMost(f64),
+    AtLeast(f64),
+}
+
+struct Bar {
+    what: &'static str,
+    case: &'static str,
+    /// `None`: the case is a file.
+    size: Option<usize>,
+    measure: Measure,
+    bound: Bound,
+}
+
+const MILLION: Option<usize> = Some(1_000_000);
+
+const fn bar(what: &'static str, case: &'static str, size: Option<usize>, measure: Measure, bound: Bound) -> Bar {
+    Bar { what, case, size, measure, bound }
+}
+
+use Bound::{AtLeast, AtMost};
+use Measure::{Growth, Peak, Ratio, Slowest, Whole};
+
+const BARS: &[Bar] = &[
+    bar(
+        "circle map of 10⁶ quads over CHOLMOD's harmonic map",
+        "grid",
+        MILLION,
+        Ratio("riemap-circle", "cholmod-harmonic"),
+        AtMost(0.6),
+    ),
+    bar(
+        "circle map of 10⁶ quads over libigl's harmonic map",
+        "grid",
+        MILLION,
+        Ratio("riemap-circle", "libigl-harmonic"),
+        AtMost(0.25),
+    ),
+    bar(
+        "circle map, Delaunay, 10⁶ vertices, over CHOLMOD's harmonic map",
+        "delaunay",
+        MILLION,
+        Ratio("riemap-circle", "cholmod-harmonic"),
+        AtMost(1.5),
+    ),
+    bar(
+        "free map of 10⁶ quads over CHOLMOD's harmonic map",
+        "grid",
+        MILLION,
+        Ratio("riemap-free", "cholmod-harmonic"),
+        AtMost(0.7),
+    ),
+    bar("free map of 10⁶ quads over libigl's LSCM", "grid", MILLION, Ratio("riemap-free", "libigl-lscm"), AtMost(0.1)),
+    bar("free map of bff-face over libigl's LSCM", "bff-face", None, Ratio("riemap-free", "libigl-lscm"), AtMost(0.5)),
+    bar(
+        "H + A + L of 10⁵ quads over libigl's SLIM",
+        "grid",
+        Some(100_000),
+        Ratio("riemap-isometric", "libigl-slim"),
+        AtMost(0.3),
+    ),
+    bar("peak memory, circle map of 10⁶ quads, GB", "grid", MILLION, Peak("riemap-circle"), AtMost(1.2)),
+    bar("peak memory, free map of 10⁶ quads, GB", "grid", MILLION, Peak("riemap-free"), AtMost(1.2)),
+    bar("circle map of 10⁶ quads over that of 10⁵", "grid", MILLION, Growth("riemap-circle", 100_000), AtMost(15.0)),
+    bar("free map of 10⁶ quads over that of 10⁵", "grid", MILLION, Growth("riemap-free", 100_000), AtMost(15.0)),
+    bar(
+        "circle map, Delaunay, 10⁶ vertices over 10⁵",
+        "delaunay",
+        MILLION,
+        Growth("riemap-circle", 100_000),
+        AtMost(15.0),
+    ),
+    bar(
+        "`riemap map` of 10⁶ quads, read to write, over its solve",
+        "grid",
+        MILLION,
+        Whole("riemap-circle"),
+        AtMost(2.0),
+    ),
+    bar("slowest of reading and writing meshes, MB/s", "grid", None, Slowest, AtLeast(100.0)),
+];
+
+/// A bar and what came of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// What is measured.
+    pub what: &'static str,
+    /// What came out; `None` where a part of it was not measured.
+    pub measured: Option<f64>,
+    /// Whether the true value is below `measured`, because a peer was stopped before its end.
+    pub at_most: bool,
+    /// As it should be: `≤ 0.6`.
+    pub bound: String,
+    /// Whether it is; `None` where it is not known.
+    pub holds: Option<bool>,
+}
+
+/// Every bar, measured as far as the record goes.
+pub fn verdicts(record: &Record) -> Vec<Verdict> {
+    BARS.iter().map(|bar| bar.verdict(record)).collect()
+}
+
+impl Bar {
+    fn verdict(&self, record: &Record) -> Verdict {
+        let (measured, at_most) = self.measure(record).map_or((None, false), |(value, at_most)| (Some(value), at_most));
+        let (bound, holds) = match self.bound {
+            AtMost(most) => (format!("≤ {most}"), measured.map(|value| value <= most)),
+            AtLeast(least) => (format!("≥ {least}"), measured.map(|value| value >= least)),
+        };
+        // What is known to be below some number may be below the bound as well.
+        let holds = holds.filter(|holds| *holds || !at_most);
+        Verdict { what: self.what, measured, at_most, bound, holds }
+    }
+
+    /// The value, and whether it is only known to be no larger.
+    fn measure(&self, record: &Record) -> Option<(f64, bool)> {
+        let median = |name: &str, size| record.entry(self.case, size, name).and_then(|entry| entry.median());
+        let cpu = |name: &str, size| median(name, size).and_then(|m| m.solve.cpu);
+        let (value, at_most) = match self.measure {
+            Ratio(ours, peer) => {
+                let entry = record.entry(self.case, self.size, peer)?;
+                match entry.outcome {
+                    Outcome::OverTheLimit { spent: Some(spent), .. } => (cpu(ours, self.size)? / spent, true),
+                    _ => (cpu(ours, self.size)? / cpu(peer, self.size)?, false),
+                }
+            }
+            Peak(name) => (median(name, self.size)?.peak_bytes? as f64 / 1e9, false),
+            Growth(name, smaller) => (cpu(name, self.size)? / cpu(name, Some(smaller))?, false),
+            Whole(name) => (median(name, self.size)?.whole.cpu? / cpu(name, self.size)?, false),
+            Slowest => {
+                // Of less than that the opening of a file is the most.
+                let large = record.exchange.iter().filter(|row| row.bytes >= 1_000_000);
+                let speeds = large.map(|row| row.megabytes_per_second());
+                (speeds.min_by(f64::total_cmp)?, false)
+            }
+        };
+        Some((value, at_most)).filter(|(value, _)| value.is_finite())
+    }
+}

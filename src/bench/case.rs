@@ -1,0 +1,254 @@
+//! What is mapped, and by whom: two tables.
+
+/// What is sought. Only maps of one kind are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// The boundary on a circle.
+    Circle,
+    /// The boundary free, angles alone count.
+    Free,
+    /// The boundary free, lengths and areas count too.
+    Isometric,
+}
+
+impl Kind {
+    /// As tables have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Circle => "circle",
+            Kind::Free => "free",
+            Kind::Isometric => "isometric",
+        }
+    }
+}
+
+/// Where a mesh comes from.
+#[derive(Clone, Copy, Debug)]
+pub enum Source {
+    /// A generated surface; `{n}` stands for the vertices along a side.
+    Generated(&'static str),
+    /// A public file.
+    File(&'static str),
+}
+
+/// A mesh of any size, or a file.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// As on the command line.
+    pub name: &'static str,
+    /// One line.
+    pub about: &'static str,
+    /// Where it comes from.
+    pub source: Source,
+    /// No larger than this many vertices.
+    pub largest: usize,
+    /// Slow contestants up to this many vertices.
+    pub slow_up_to: usize,
+    /// Whether maps of lengths and areas take part.
+    pub isometric: bool,
+}
+
+impl Case {
+    /// The mesh of about `vertices` vertices; `None` where the case has none of that size.
+    pub fn mesh(&self, vertices: usize) -> Option<String> {
+        match self.source {
+            Source::Generated(pattern) if vertices <= self.largest => {
+                let side = (vertices as f64).sqrt().round().max(4.0);
+                Some(pattern.replace("{n}", &side.to_string()))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Every case.
+pub static CASES: &[Case] = &[
+    Case {
+        name: "grid",
+        about: "quads, a regular grid on the egg box z = cos s + cos t",
+        source: Source::Generated("graph:cos+cos?n={n}"),
+        largest: usize::MAX,
+        slow_up_to: usize::MAX,
+        isometric: true,
+    },
+    Case {
+        name: "jittered",
+        about: "quads, the same grid with its vertices displaced",
+        source: Source::Generated("graph:cos+cos?n={n}&jitter=0.3&seed=1"),
+        largest: usize::MAX,
+        slow_up_to: 10_000,
+        isometric: false,
+    },
+    Case {
+        name: "split",
+        about: "triangles, the grid's quads split along alternating diagonals",
+        source: Source::Generated("graph:cos+cos?n={n}&mesh=triangle"),
+        largest: 100_000,
+        slow_up_to: 10_000,
+        isometric: false,
+    },
+    Case {
+        name: "delaunay",
+        about: "triangles, Delaunay, vertices at random places and in random order",
+        source: Source::Generated("graph:cos+cos?n={n}&mesh=delaunay&points=random&seed=1"),
+        largest: usize::MAX,
+        slow_up_to: 100_000,
+        isometric: true,
+    },
+    Case {
+        name: "bff-face",
+        about: "triangles, a scanned face (public file tri/bff-face.obj)",
+        source: Source::File("tri/bff-face.obj"),
+        largest: usize::MAX,
+        slow_up_to: usize::MAX,
+        isometric: false,
+    },
+];
+
+/// A program with its way to map.
+#[derive(Clone, Copy, Debug)]
+pub struct Contestant {
+    /// As in tables.
+    pub name: &'static str,
+    /// One line.
+    pub about: &'static str,
+    /// What it seeks.
+    pub kind: Kind,
+    /// Who runs.
+    pub program: Program,
+    /// No mesh of more vertices than this.
+    pub largest: usize,
+    /// Whether it is kept from the large meshes of some cases.
+    pub slow: bool,
+}
+
+/// Who runs.
+#[derive(Clone, Copy, Debug)]
+pub enum Program {
+    /// This program: `riemap map` with these options.
+    Riemap(&'static [&'static str]),
+    /// A function of `peers.py`, which needs these packages.
+    Peer(&'static [Package]),
+}
+
+/// A Python package.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Package {
+    /// Its name at PyPI.
+    pub name: &'static str,
+    /// What makes it available.
+    pub install: &'static str,
+}
+
+const LIBIGL: Package = Package { name: "libigl", install: "pip install libigl==2.6.3 numpy scipy" };
+const MESHLAB: Package = Package { name: "pymeshlab", install: "pip install pymeshlab==2025.7.post1" };
+const CHOLMOD: Package = Package {
+    name: "scikit-sparse",
+    install: "apt-get install libsuitesparse-dev libopenblas-dev gcc, then pip install Cython setuptools wheel and \
+              pip install --no-build-isolation scikit-sparse==0.4.16",
+};
+
+/// Everyone; of a kind ours is the first.
+pub static CONTESTANTS: &[Contestant] = &[
+    Contestant {
+        name: "riemap-circle",
+        about: "H + C, nonlinear: the boundary slides on the circle, three points held",
+        kind: Kind::Circle,
+        program: Program::Riemap(&["--boundary", "circle"]),
+        largest: usize::MAX,
+        slow: false,
+    },
+    Contestant {
+        name: "cholmod-harmonic",
+        about: "cotan Laplacian by numpy, boundary held by arc length, SuiteSparse's Cholesky",
+        kind: Kind::Circle,
+        program: Program::Peer(&[LIBIGL, CHOLMOD]),
+        largest: usize::MAX,
+        slow: false,
+    },
+    Contestant {
+        name: "libigl-harmonic",
+        about: "igl.harmonic, boundary held by arc length",
+        kind: Kind::Circle,
+        program: Program::Peer(&[LIBIGL]),
+        largest: usize::MAX,
+        slow: false,
+    },
+    Contestant {
+        name: "meshlab-harmonic",
+        about: "MeshLab's harmonic parametrisation",
+        kind: Kind::Circle,
+        program: Program::Peer(&[MESHLAB]),
+        largest: 100_000,
+        slow: true,
+    },
+    Contestant {
+        name: "riemap-free",
+        about: "H + L', nonlinear: the boundary keeps its lengths",
+        kind: Kind::Free,
+        program: Program::Riemap(&["--boundary", "free"]),
+        largest: usize::MAX,
+        slow: false,
+    },
+    Contestant {
+        name: "libigl-lscm",
+        about: "igl.lscm, two boundary vertices held",
+        kind: Kind::Free,
+        program: Program::Peer(&[LIBIGL]),
+        largest: usize::MAX,
+        slow: true,
+    },
+    Contestant {
+        name: "meshlab-lscm",
+        about: "MeshLab's least-squares conformal map",
+        kind: Kind::Free,
+        program: Program::Peer(&[MESHLAB]),
+        largest: 100_000,
+        slow: true,
+    },
+    Contestant {
+        name: "riemap-isometric",
+        about: "H + A + L, to its minimum",
+        kind: Kind::Isometric,
+        program: Program::Riemap(&["--energy", "H + A + L"]),
+        largest: 100_000,
+        slow: true,
+    },
+    Contestant {
+        name: "libigl-slim",
+        about: "igl.slim_solve, symmetric Dirichlet, 20 iterations from the harmonic map",
+        kind: Kind::Isometric,
+        program: Program::Peer(&[LIBIGL]),
+        largest: 100_000,
+        slow: true,
+    },
+    Contestant {
+        name: "libigl-arap",
+        about: "igl.arap_solve in the plane, 20 iterations from the harmonic map",
+        kind: Kind::Isometric,
+        program: Program::Peer(&[LIBIGL]),
+        largest: 100_000,
+        slow: true,
+    },
+];
+
+impl Contestant {
+    /// Whether it takes part where the mesh has `vertices` vertices.
+    pub fn enters(&self, case: &Case, vertices: usize) -> bool {
+        // A size is what was asked for; a grid has a few vertices more or fewer.
+        let beyond = |limit: usize| vertices as f64 > 1.1 * limit as f64;
+        let too_large = beyond(self.largest) || self.slow && beyond(case.slow_up_to);
+        !too_large && (case.isometric || self.kind != Kind::Isometric)
+    }
+
+    /// Whether it is this program.
+    pub fn is_ours(&self) -> bool {
+        matches!(self.program, Program::Riemap(_))
+    }
+}
+
+/// The case of that name.
+pub fn case(name: &str) -> Option<&'static Case> {
+    CASES.iter().find(|case| case.name == name)
+}

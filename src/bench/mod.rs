@@ -1,0 +1,73 @@
+//! Speed against other programs, each run a process of its own: `riemap bench`.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `case.rs` | the meshes and the contestants: two tables |
+//! | `run.rs`, `contest.rs` | all meshes one after the other; on each, everyone in turns |
+//! | `process.rs` | one process, measured and stopped where it takes too long |
+//! | `python.rs`, `peers.py` | the interpreter with the peers, and what it runs |
+//! | `target.rs` | the mesh as files, and the measure of what comes back |
+//! | `exchange.rs` | the speed of reading and writing |
+//! | `record.rs`, `median.rs`, `bar.rs` | what is kept; medians and ratios; the bars that the program is held to |
+//! | `table.rs`, `chart.rs` | Markdown, CSV and plots of it |
+
+mod bar;
+mod case;
+mod chart;
+mod contest;
+mod error;
+mod exchange;
+mod median;
+mod process;
+mod python;
+mod record;
+mod run;
+mod table;
+mod target;
+
+use std::path::{Path, PathBuf};
+
+pub use bar::{Verdict, verdicts};
+pub use case::{CASES, CONTESTANTS, Case, Contestant, Kind, Package, Program, Source, case};
+pub use chart::plots;
+pub use error::BenchError;
+pub use median::{median, medians};
+pub use python::Peers;
+pub use record::{Entry, Exchange, Measured, Outcome, Quality, Record, Seconds};
+pub use run::{Event, Plan, chosen, run};
+pub use table::{bars, brief, csv, markdown};
+
+use crate::io::{WriteError, stage};
+
+/// The contestant of that name.
+pub fn contestant(name: &str) -> Option<&'static Contestant> {
+    CONTESTANTS.iter().find(|contestant| contestant.name == name)
+}
+
+/// The files that [`write`] always makes.
+pub const FILES: [&str; 3] = ["table.md", "bench.csv", "bench.json"];
+
+/// Writes `table.md`, `bench.csv`, `bench.json` and the plots into `folder`, all or none; their paths. Plots of an earlier record
+/// that this one has not are removed.
+///
+/// # Errors
+/// A folder that cannot be made; files that cannot be written.
+pub fn write(record: &Record, folder: &Path) -> Result<Vec<PathBuf>, BenchError> {
+    let json = serde_json::json!({ "bars": verdicts(record), "record": record });
+    let texts = [markdown(record), csv(record), format!("{}\n", serde_json::to_string_pretty(&json)?)];
+    let texts = texts.into_iter().map(String::into_bytes);
+    let mut files: Vec<(String, Vec<u8>)> = FILES.iter().map(|name| name.to_string()).zip(texts).collect();
+    files.extend(plots(record)?);
+    std::fs::create_dir_all(folder).map_err(|source| WriteError::Io { path: folder.to_owned(), source })?;
+    let staged = files.iter().map(|(name, bytes)| stage(&folder.join(name), |out| out.write_all(bytes)));
+    let staged: Vec<_> = staged.collect::<Result<_, _>>()?;
+    staged.into_iter().try_for_each(|file| file.publish())?;
+    for stale in chart::files().filter(|name| files.iter().all(|(file, _)| file != name)) {
+        let path = folder.join(stale);
+        match std::fs::remove_file(&path) {
+            Err(source) if source.kind() != std::io::ErrorKind::NotFound => Err(WriteError::Io { path, source })?,
+            _ => {}
+        }
+    }
+    Ok(files.into_iter().map(|(name, _)| folder.join(name)).collect())
+}

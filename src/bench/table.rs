@@ -1,0 +1,201 @@
+//! The record as text: Markdown to read, CSV to work with.
+
+use std::fmt::Write;
+
+use super::bar::{Verdict, verdicts};
+use super::record::{Entry, Measured, Outcome, Quality, Record};
+use super::{Contestant, contestant};
+
+/// The bars and one table per mesh, in Markdown.
+pub fn markdown(record: &Record) -> String {
+    let mut text = String::from("# Speed against peers\n\n");
+    let versions: Vec<String> = record.versions.iter().map(|(name, version)| format!("{name} {version}")).collect();
+    text += &format!(
+        "Seconds of the processor (all threads, user and system) and of the clock, medians of the runs. Each run is a process of \
+         its own with one thread, contestants in turns. *Solve*: from the mesh in memory to the map there, assembly included \
+         (of that after the assembly: *factor*, where it is told apart). *Whole*: the process from start to end, reading and \
+         writing included; a peer's has the start of Python in it, ours the exact check of the map, its distortion and its writing \
+         as OBJ, where peers write bare numbers. Peers get quads split into triangles. All maps are measured by our code on the \
+         faces of the mesh as it is. *Ours/its*: the solve of our map of the same kind over this one's, processor seconds.\n\n\
+         Machine: {}. Versions: {}. Limit: {} s a process.\n\n",
+        record.machine,
+        versions.join(", "),
+        record.limit
+    );
+    text += "## Bars\n\n";
+    text += &bars(&verdicts(record));
+    for mesh in meshes(record) {
+        let first = mesh[0];
+        let Entry { case, vertices, faces, .. } = first;
+        text += &format!("\n## {case}: {vertices} vertices, {faces} faces\n\n");
+        text += "| contestant | map | runs | solve cpu | factor cpu | solve wall | whole cpu | whole wall | peak MB | \
+                 σ₁/σ₂ mean | 99 % | area | flipped | ours/its |\n";
+        text += &format!("|{}\n", " --: |".repeat(14));
+        mesh.iter().for_each(|entry| text += &row(entry));
+    }
+    if !record.exchange.is_empty() {
+        text += "\n## Reading and writing the largest grid\n\n| what | MB | cpu | MB/s |\n| --: | --: | --: | --: |\n";
+        for row in &record.exchange {
+            let (megabytes, speed) = (row.bytes as f64 / 1e6, row.megabytes_per_second());
+            text += &format!("| {} | {megabytes:.1} | {:.3} | {speed:.0} |\n", row.what, row.cpu);
+        }
+    }
+    text += &notes(record);
+    text
+}
+
+/// The bars as a table.
+pub fn bars(verdicts: &[Verdict]) -> String {
+    let mut text = String::from("| what | measured | bar | holds |\n| :-- | --: | --: | :-- |\n");
+    for Verdict { what, measured, at_most, bound, holds } in verdicts {
+        let sign = if *at_most { "< " } else { "" };
+        let measured = measured.map_or("not measured".to_owned(), |value| format!("{sign}{}", digits(value)));
+        let holds = match holds {
+            Some(true) => "yes",
+            Some(false) => "**no**",
+            None => "",
+        };
+        let _ = writeln!(text, "| {what} | {measured} | {bound} | {holds} |");
+    }
+    text
+}
+
+/// Every run's numbers, one line an entry.
+pub fn csv(record: &Record) -> String {
+    let mut text = String::from(
+        "case,size,vertices,faces,contestant,map,outcome,runs,solve_cpu,solve_wall,factor_cpu,whole_cpu,whole_wall,peak_bytes,\
+         quasi_conformal,quasi_conformal_p99,area,flipped,ratio\n",
+    );
+    for entry in &record.entries {
+        let Entry { case, size, vertices, faces, contestant, kind, runs, outcome, ratio, .. } = entry;
+        let name = match outcome {
+            Outcome::Done { .. } => "done",
+            Outcome::OverTheLimit { .. } => "over-the-limit",
+            Outcome::Failed { .. } => "failed",
+            Outcome::LeftOut { .. } => "left-out",
+        };
+        let number = |x: Option<f64>| x.map(|x| format!("{x:?}")).unwrap_or_default();
+        let of = |f: &dyn Fn(&Measured) -> Option<f64>| number(entry.median().and_then(f));
+        let measured = quality(entry);
+        let cells = [
+            of(&|m| m.solve.cpu),
+            of(&|m| Some(m.solve.wall)),
+            of(&|m| m.factor.and_then(|f| f.cpu)),
+            of(&|m| m.whole.cpu),
+            of(&|m| Some(m.whole.wall)),
+            entry.median().and_then(|m| m.peak_bytes).map(|b| b.to_string()).unwrap_or_default(),
+            number(measured.and_then(|q| q.quasi_conformal)),
+            number(measured.and_then(|q| q.quasi_conformal_p99)),
+            number(measured.and_then(|q| q.area)),
+            measured.map(|q| q.flipped.to_string()).unwrap_or_default(),
+            number(*ratio),
+        ];
+        let (kind, runs) = (kind.name(), runs.len());
+        let _ =
+            writeln!(text, "{case},{size},{vertices},{faces},{contestant},{kind},{name},{runs},{}", cells.join(","));
+    }
+    text
+}
+
+/// The entries mesh by mesh.
+fn meshes(record: &Record) -> Vec<Vec<&Entry>> {
+    let mut meshes: Vec<Vec<&Entry>> = Vec::new();
+    for entry in &record.entries {
+        match meshes.last_mut().filter(|mesh| (mesh[0].case, mesh[0].size) == (entry.case, entry.size)) {
+            Some(mesh) => mesh.push(entry),
+            None => meshes.push(vec![entry]),
+        }
+    }
+    meshes
+}
+
+fn row(entry: &Entry) -> String {
+    let (name, kind) = (entry.contestant, entry.kind.name());
+    let Outcome::Done { median, quality } = &entry.outcome else {
+        return format!("| {name} | {kind} | {}{} |\n", brief(&entry.outcome), " |".repeat(11));
+    };
+    let seconds = |s: Option<f64>| s.map_or("–".to_owned(), |s| format!("{s:.3}"));
+    let quality = [quality.quasi_conformal, quality.quasi_conformal_p99, quality.area]
+        .map(|q| q.map_or("–".to_owned(), |q| format!("{q:.4}")))
+        .into_iter()
+        .chain([quality.flipped.to_string()])
+        .collect::<Vec<_>>()
+        .join(" | ");
+    format!(
+        "| {name} | {kind} | {} | {} | {} | {:.3} | {} | {:.3} | {} | {quality} | {} |\n",
+        entry.runs.len(),
+        seconds(median.solve.cpu),
+        seconds(median.factor.and_then(|f| f.cpu)),
+        median.solve.wall,
+        seconds(median.whole.cpu),
+        median.whole.wall,
+        median.peak_bytes.map_or("–".to_owned(), |b| format!("{:.0}", b as f64 / 1e6)),
+        entry.ratio.map(digits).unwrap_or_default(),
+    )
+}
+
+/// An outcome without numbers, in a few words.
+pub fn brief(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Done { .. } => "done".to_owned(),
+        Outcome::OverTheLimit { limit, expected: None, .. } => format!("over the limit of {limit} s, stopped"),
+        Outcome::OverTheLimit { limit, expected: Some(seconds), .. } => {
+            format!("over the limit of {limit} s by the smaller mesh ({seconds:.0} s or more), not begun")
+        }
+        Outcome::Failed { .. } => "failed".to_owned(),
+        Outcome::LeftOut { lacks, .. } => format!("left out: {lacks} is not installed"),
+    }
+}
+
+/// Who they are, and what went wrong.
+fn notes(record: &Record) -> String {
+    let mut text = String::from("\n## Contestants\n\n");
+    let mut named: Vec<&str> = Vec::new();
+    let mut said: Vec<String> = record.passed_over.iter().map(|reason| format!("passed over: {reason}")).collect();
+    for entry in &record.entries {
+        if !named.contains(&entry.contestant) {
+            named.push(entry.contestant);
+        }
+        let name = entry.contestant;
+        let what = match &entry.outcome {
+            Outcome::Failed { reason } => format!("{name} failed on {} at {}: {reason}", entry.case, entry.vertices),
+            Outcome::LeftOut { lacks, install } => format!("{name} is left out: {lacks} is not installed; {install}"),
+            Outcome::Done { .. } | Outcome::OverTheLimit { .. } => continue,
+        };
+        if !said.contains(&what) {
+            said.push(what);
+        }
+    }
+    for Contestant { name, about, .. } in named.into_iter().filter_map(contestant) {
+        let _ = writeln!(text, "- {name}: {about}");
+    }
+    if !said.is_empty() {
+        text += "\n## Notes\n\n";
+        said.iter().for_each(|what| text += &format!("- {}\n", what.replace('\n', " ")));
+    }
+    text
+}
+
+fn quality(entry: &Entry) -> Option<Quality> {
+    match entry.outcome {
+        Outcome::Done { quality, .. } => Some(quality),
+        _ => None,
+    }
+}
+
+/// Three significant digits, as bars are told apart by.
+fn digits(value: f64) -> String {
+    let decimals = (2 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9) as usize;
+    format!("{value:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let values = [0.0123456, 0.25, 1.0, 12.34, 123.4, 1234.5, 0.0];
+        assert_eq!(values.map(digits), ["0.0123", "0.250", "1.00", "12.3", "123", "1234", "0.000000000"]);
+    }
+}
