@@ -25,7 +25,7 @@ impl<'a> LinearProblem<'a> {
     /// Constraints that leave freedoms, or that name vertices that do not exist.
     pub fn new(graph: &'a QuadGraph, weight: Weight, fixed: &Fixed) -> Result<Self, ConstraintError> {
         fixed.determine(graph)?;
-        Ok(LinearProblem { graph, weight, elimination: Elimination::new(graph.vertices, fixed) })
+        Ok(LinearProblem { graph, weight, elimination: Elimination::for_factor(graph, fixed) })
     }
 
     /// Whether (2) has as many equations as unknowns, so that its solution has H = 0.

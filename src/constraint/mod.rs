@@ -1,10 +1,12 @@
 //! Which vertices are held where, and the elimination x = Z y + x0 that leaves backends the free unknowns y alone.
 
 mod boundary;
+mod elimination;
 mod freedoms;
 mod gauge;
 
 pub use boundary::{Shape, on_circle, on_shape};
+pub use elimination::Elimination;
 pub use freedoms::Freedoms;
 pub use gauge::{float_white_back, hold_gauge, spread_points};
 
@@ -182,55 +184,5 @@ impl Fixed {
             Some(vertex) => Err(ConstraintError::Afloat { vertex: vertex as u32 }),
             None => Ok(()),
         }
-    }
-}
-
-/// `z = Z y + z0`: y are the values of the free vertices in ascending order, z0 has the held values and 0 elsewhere.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Elimination {
-    /// The vertex of each unknown (`m`).
-    pub free: Vec<u32>,
-    /// The unknown of each vertex (`nv`), or [`Elimination::HELD`].
-    pub unknown: Vec<u32>,
-    /// The held values, 0 at free vertices (`nv`).
-    pub z0: Vec<Complex64>,
-}
-
-impl Elimination {
-    /// Marks a vertex that is no unknown.
-    pub const HELD: u32 = u32::MAX;
-
-    /// Eliminates the vertices that `fixed` holds from those of a graph of `vertices` vertices.
-    pub fn new(vertices: usize, fixed: &Fixed) -> Self {
-        let mut z0 = vec![Complex64::ZERO; vertices];
-        let mut unknown = vec![0; vertices];
-        for (v, place) in fixed.iter() {
-            z0[v as usize] = place;
-            unknown[v as usize] = Self::HELD;
-        }
-        let free: Vec<u32> = (0..vertices as u32).filter(|&v| unknown[v as usize] != Self::HELD).collect();
-        for (k, &v) in free.iter().enumerate() {
-            unknown[v as usize] = k as u32;
-        }
-        Elimination { free, unknown, z0 }
-    }
-
-    /// Number of complex unknowns.
-    pub fn unknowns(&self) -> usize {
-        self.free.len()
-    }
-
-    /// Whether vertex `v` is an unknown.
-    pub fn is_free(&self, v: u32) -> bool {
-        self.unknown[v as usize] != Self::HELD
-    }
-
-    /// z = Z y + z0.
-    pub fn expand(&self, y: &[Complex64]) -> Vec<Complex64> {
-        let mut z = self.z0.clone();
-        for (&v, &value) in self.free.iter().zip(y) {
-            z[v as usize] = value;
-        }
-        z
     }
 }

@@ -19,6 +19,7 @@ impl QuadGraph {
             tilted: planes.map_or(0, |planes| planes.tilted),
             boundary: disc.boundary.clone(),
             boundary_length: Vec::new(),
+            places: disc.positions.clone(),
         };
         for (face, polygon) in disc.faces.iter().enumerate() {
             let &[v0, v1, v2, v3] = polygon else { return Err(QuadGraphError::Corners { corners: polygon.len() }) };

@@ -4,7 +4,7 @@ use super::dual::{BoundaryDual, DualPoint};
 use super::{QuadGraph, QuadGraphError, difference};
 use crate::surface::disc::Disc;
 use crate::surface::edges::{Edges, next_in};
-use crate::surface::vector::{cross, dot, norm};
+use crate::surface::vector::{add, cross, dot, norm, scale};
 
 impl QuadGraph {
     /// The quad graph of a triangle mesh: a dual vertex per face and per boundary edge; each edge vi → vj, with face f
@@ -49,6 +49,7 @@ impl QuadGraph {
             tilted: 0,
             boundary: Vec::with_capacity(2 * loop_length),
             boundary_length: vec![0.0; 2 * loop_length],
+            places: places(disc),
         };
         for (k, &v) in disc.boundary.iter().enumerate() {
             graph.boundary.extend([v, (primal + faces + k) as u32]);
@@ -87,6 +88,19 @@ impl QuadGraph {
         }
         Ok(graph)
     }
+}
+
+/// The vertices, the barycentres of the faces, the midpoints of the boundary edges.
+fn places(disc: &Disc) -> Vec<[f64; 3]> {
+    let mean = |vertices: &[u32]| {
+        let sum = vertices.iter().fold([0.0; 3], |sum, &v| add(sum, disc.positions[v as usize]));
+        scale(1.0 / vertices.len() as f64, sum)
+    };
+    let (loop_, n) = (&disc.boundary, disc.boundary.len());
+    let mut places = disc.positions.clone();
+    places.extend(disc.faces.iter().map(mean));
+    places.extend((0..n).map(|k| mean(&[loop_[k], loop_[(k + 1) % n]])));
+    places
 }
 
 /// The dual point of each corner's face, seen from the corner's edge: (s, h), in units of the edge.

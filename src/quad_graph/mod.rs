@@ -41,6 +41,8 @@ pub struct QuadGraph {
     pub boundary: Vec<u32>,
     /// Rest length of the edge from each boundary vertex to the next (`nb`).
     pub boundary_length: Vec<f64>,
+    /// About where each vertex is in space (`nv × 3`): tells how to number unknowns, and has no part in any map.
+    pub places: Vec<[f64; 3]>,
 }
 
 /// The geometry of a mesh gives no usable ρ.

@@ -3,7 +3,10 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
-use faer::sparse::linalg::cholesky::{CholeskySymbolicParams, LltRef, SymbolicCholesky, factorize_symbolic_cholesky};
+use faer::perm::PermRef;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::traits::ComplexField;
 use faer::{Conj, MatMut, Par, Side};
@@ -21,7 +24,17 @@ pub enum Breakdown {
     TooLarge,
 }
 
-/// The elimination tree and fill of a pattern, in an AMD ordering.
+/// In what order unknowns are eliminated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// By approximate minimum degree.
+    #[default]
+    Amd,
+    /// As they are numbered, by [`dissect`](super::dissect).
+    AsGiven,
+}
+
+/// The elimination tree and fill of a pattern.
 pub struct Analysis<'a> {
     columns: &'a Columns,
     symbolic: SymbolicCholesky<u32>,
@@ -39,12 +52,33 @@ impl<'a> Analysis<'a> {
     /// # Errors
     /// [`Breakdown::TooLarge`].
     pub fn new(columns: &'a Columns) -> Result<Self, Breakdown> {
-        Analysis::with(columns, Default::default())
+        Analysis::ordered(columns, Order::Amd)
+    }
+
+    /// Analyses a pattern in this order.
+    ///
+    /// # Errors
+    /// [`Breakdown::TooLarge`].
+    pub fn ordered(columns: &'a Columns, order: Order) -> Result<Self, Breakdown> {
+        Analysis::with(columns, order, Default::default())
     }
 
     /// Analyses a pattern in faer's terms.
-    pub(super) fn with(columns: &'a Columns, parameters: CholeskySymbolicParams) -> Result<Self, Breakdown> {
-        let symbolic = factorize_symbolic_cholesky(view(columns), Side::Lower, Default::default(), parameters)
+    pub(super) fn with(
+        columns: &'a Columns,
+        order: Order,
+        parameters: CholeskySymbolicParams,
+    ) -> Result<Self, Breakdown> {
+        let as_given: Vec<u32> = match order {
+            Order::Amd => Vec::new(),
+            Order::AsGiven => (0..columns.size() as u32).collect(),
+        };
+        let ordering = match order {
+            Order::Amd => SymmetricOrdering::Amd,
+            // Not faer's `Identity`, which wants the upper triangle.
+            Order::AsGiven => SymmetricOrdering::Custom(PermRef::new_checked(&as_given, &as_given, columns.size())),
+        };
+        let symbolic = factorize_symbolic_cholesky(view(columns), Side::Lower, ordering, parameters)
             .map_err(|_| Breakdown::TooLarge)?;
         Ok(Analysis { columns, symbolic })
     }

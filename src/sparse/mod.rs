@@ -1,10 +1,13 @@
 //! Sparse symmetric matrices assembled from small blocks, and their Cholesky factors.
 
 mod cholesky;
+mod dissection;
 mod pattern;
 mod pruned;
+mod separator;
 
-pub use cholesky::{Analysis, Breakdown, Cholesky};
+pub use cholesky::{Analysis, Breakdown, Cholesky, Order};
+pub use dissection::dissect;
 pub(crate) use pattern::pairs_of;
 pub use pattern::{Columns, Pattern, Stencils};
 pub use pruned::{Columns2, PrunedCholesky};

@@ -7,7 +7,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use num_complex::Complex64;
 
-use super::{Analysis, Breakdown, Columns};
+use super::{Analysis, Breakdown, Columns, Order};
 
 /// `P M Pᵀ = L Lᵀ`, real, by supernodes. A solve from ports to ports touches only the columns that are ancestors of ports in
 /// the elimination tree.
@@ -33,12 +33,12 @@ impl PrunedCholesky {
     ///
     /// # Errors
     /// A pivot that is not positive; lack of memory or of indices.
-    pub fn new(columns: &Columns, values: &[f64], ports: Vec<u32>) -> Result<Self, Breakdown> {
+    pub fn new(columns: &Columns, order: Order, values: &[f64], ports: Vec<u32>) -> Result<Self, Breakdown> {
         let by_supernodes = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let analysis = Analysis::with(columns, by_supernodes)?;
+        let analysis = Analysis::with(columns, order, by_supernodes)?;
         let values = analysis.factorise(values, None)?.into_values();
         let symbolic = analysis.into_symbolic();
         let mut factor = PrunedCholesky { symbolic, values, ports: Vec::new(), closure: Vec::new() };

@@ -40,7 +40,7 @@ impl LinearBackend for Cotan {
         for v in (0..graph.vertices as u32).filter(|&v| !is_black[v as usize] || !problem.elimination.is_free(v)) {
             not_unknown.hold(v, problem.elimination.z0[v as usize]);
         }
-        let black = Elimination::new(graph.vertices, &not_unknown);
+        let black = Elimination::for_factor(graph, &not_unknown);
         let edge = |q: usize| {
             let [v0, v1, v2, v3] = graph.quads[q];
             let rho = graph.rho[q].re;
@@ -55,7 +55,7 @@ impl LinearBackend for Cotan {
         });
         watch.phase(Phase::Factor);
         let broken = |reason| SolveError::broken(self, problem, reason);
-        let analysis = Analysis::new(&pattern.columns).map_err(broken)?;
+        let analysis = Analysis::ordered(&pattern.columns, black.order).map_err(broken)?;
         let factor = analysis.factorise(&values, None).map_err(broken)?;
         watch.phase(Phase::Solve);
         let mut z = black.z0.clone();

@@ -120,7 +120,7 @@ impl LinearBackend for RealCholesky {
         let values = real_values(&pattern, problem.graph, &problem.elimination, &weights);
         watch.phase(Phase::Factor);
         let broken = |reason| SolveError::broken(self, problem, reason);
-        let analysis = Analysis::new(&pattern.columns).map_err(broken)?;
+        let analysis = Analysis::ordered(&pattern.columns, problem.elimination.order).map_err(broken)?;
         let factor = analysis.factorise(&values, None).map_err(broken)?;
         watch.phase(Phase::Solve);
         let product = |z: &[Complex64]| conformal::normal_product(problem.graph, &weights, z);
@@ -154,7 +154,7 @@ impl LinearBackend for HermitianCholesky {
             assemble(&pattern, graph, elimination, Complex64::ZERO, |q| conformal::block(graph.rho[q], weights[q]));
         watch.phase(Phase::Factor);
         let broken = |reason| SolveError::broken(self, problem, reason);
-        let analysis = Analysis::new(&pattern.columns).map_err(broken)?;
+        let analysis = Analysis::ordered(&pattern.columns, problem.elimination.order).map_err(broken)?;
         let factor = analysis.factorise(&values, None).map_err(broken)?;
         watch.phase(Phase::Solve);
         let product = |z: &[Complex64]| conformal::normal_product(graph, &weights, z);

@@ -56,7 +56,7 @@ impl<'a> Reduction<'a> {
         }
         let mut fixed = Fixed::default();
         graph.boundary.iter().for_each(|&v| fixed.hold(v, Complex64::ZERO));
-        let elimination = Elimination::new(graph.vertices, &fixed);
+        let elimination = Elimination::for_factor(graph, &fixed);
         let unknown = &elimination.unknown;
         let (mut outward, mut along) = (Vec::new(), Vec::new());
         for (q, quad) in graph.quads.iter().enumerate() {
@@ -92,7 +92,7 @@ impl<'a> Reduction<'a> {
             let columns = pattern.into_columns();
             factoring();
             let broken = |reason| Unreduced::Factorisation { unknowns, reason };
-            Some(PrunedCholesky::new(&columns, &values, ports).map_err(broken)?)
+            Some(PrunedCholesky::new(&columns, elimination.order, &values, ports).map_err(broken)?)
         };
         let columns = factor.as_ref().map(PrunedCholesky::work);
         let work = RefCell::new(Work { columns, at_ports: vec![Complex64::ZERO; count], products: 0 });

@@ -1,0 +1,76 @@
+use num_complex::Complex64;
+
+use super::Fixed;
+use crate::quad_graph::QuadGraph;
+use crate::sparse::{Order, dissect};
+
+/// Fewer unknowns are numbered by ascending vertices, and eliminated by minimum degree: at this size that begins to cost more
+/// than the factor.
+const DISSECTED: usize = 150_000;
+
+/// `z = Z y + z0`: y are the values of the free vertices, z0 has the held values and 0 elsewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elimination {
+    /// The vertex of each unknown (`m`).
+    pub free: Vec<u32>,
+    /// The unknown of each vertex (`nv`), or [`Elimination::HELD`].
+    pub unknown: Vec<u32>,
+    /// The held values, 0 at free vertices (`nv`).
+    pub z0: Vec<Complex64>,
+    /// In what order a Cholesky factor is to eliminate the unknowns.
+    pub order: Order,
+}
+
+impl Elimination {
+    /// Marks a vertex that is no unknown.
+    pub const HELD: u32 = u32::MAX;
+
+    /// Eliminates the vertices that `fixed` holds from those of a graph of `vertices` vertices. The unknowns are numbered by
+    /// ascending vertices.
+    pub fn new(vertices: usize, fixed: &Fixed) -> Self {
+        let mut z0 = vec![Complex64::ZERO; vertices];
+        let mut unknown = vec![0; vertices];
+        for (v, place) in fixed.iter() {
+            z0[v as usize] = place;
+            unknown[v as usize] = Self::HELD;
+        }
+        let free: Vec<u32> = (0..vertices as u32).filter(|&v| unknown[v as usize] != Self::HELD).collect();
+        for (k, &v) in free.iter().enumerate() {
+            unknown[v as usize] = k as u32;
+        }
+        Elimination { free, unknown, z0, order: Order::Amd }
+    }
+
+    /// The same for a factor of matrices that couple the vertices of each quad: many unknowns are numbered in an order of
+    /// nested dissection ([`dissect`]).
+    pub fn for_factor(graph: &QuadGraph, fixed: &Fixed) -> Self {
+        let mut elimination = Elimination::new(graph.vertices, fixed);
+        if elimination.unknowns() >= DISSECTED {
+            elimination.free = dissect(&graph.quads, &graph.places, |v| elimination.is_free(v));
+            elimination.order = Order::AsGiven;
+            for (k, &v) in elimination.free.iter().enumerate() {
+                elimination.unknown[v as usize] = k as u32;
+            }
+        }
+        elimination
+    }
+
+    /// Number of complex unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Whether vertex `v` is an unknown.
+    pub fn is_free(&self, v: u32) -> bool {
+        self.unknown[v as usize] != Self::HELD
+    }
+
+    /// z = Z y + z0.
+    pub fn expand(&self, y: &[Complex64]) -> Vec<Complex64> {
+        let mut z = self.z0.clone();
+        for (&v, &value) in self.free.iter().zip(y) {
+            z[v as usize] = value;
+        }
+        z
+    }
+}

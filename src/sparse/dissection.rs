@@ -1,0 +1,174 @@
+//! Nested dissection by places: an order of elimination that keeps fill low in matrices which couple near vertices of a
+//! surface.
+
+use super::separator::Band;
+
+/// Pieces at most in a part that is not divided further: its few vertices make one supernode.
+const LEAF: usize = 32;
+
+/// Smaller parts are cut across their longest side without further thought: they have little part in the fill.
+const LARGE: usize = 300;
+
+/// Sides that are shorter than this share of the longest one are not cut across.
+const SHORT: f64 = 0.3;
+
+/// In parts of more pieces a better cut is sought next to the first one: the large parts have most of the work.
+const REFINED: usize = 3000;
+
+/// The vertices that are `free`, in an order of elimination. `places` has a place for every vertex; `pieces` are the
+/// sets of vertices that the matrix couples.
+///
+/// The pieces are halved across one axis of space, the one that cuts the fewest vertices; the vertices on the cut, made as
+/// few as can be ([`Band`]), come after all others, and the halves are divided in the same way (A. George, *Nested dissection
+/// of a regular finite element mesh*, 1973). On a surface of n vertices cuts have O(√n): fill O(n log n), work O(n^1.5). The
+/// order is one of the elimination tree, children before parents.
+pub fn dissect(pieces: &[[u32; 4]], places: &[[f64; 3]], free: impl Fn(u32) -> bool) -> Vec<u32> {
+    let free: Vec<bool> = (0..places.len() as u32).map(free).collect();
+    let count = free.iter().filter(|free| **free).count();
+    let mut pieces: Vec<Piece> =
+        pieces.iter().map(|&vertices| Piece { at: middle(vertices, places), vertices }).collect();
+    let mut dissection =
+        Dissection { free, mark: vec![0; places.len()], tag: 0, order: vec![u32::MAX; count], left: count };
+    let mut parts = Vec::from([(0, pieces.len())]);
+    while let Some((begin, end)) = parts.pop() {
+        let pieces = &mut pieces[begin..end];
+        if pieces.len() <= LEAF {
+            pieces.iter().flat_map(|piece| piece.vertices).for_each(|v| dissection.number(v));
+            continue;
+        }
+        let middle = begin + dissection.divide(pieces);
+        parts.extend([(begin, middle), (middle, end)]);
+    }
+    dissection.order.drain(..dissection.left);
+    dissection.order
+}
+
+/// The sum of the places of the vertices: for comparisons as good as their mean.
+fn middle(vertices: [u32; 4], places: &[[f64; 3]]) -> [f64; 3] {
+    let [a, b, c, d] = vertices.map(|v| places[v as usize]);
+    [0, 1, 2].map(|axis| a[axis] + b[axis] + c[axis] + d[axis])
+}
+
+/// Vertices that are coupled, and where they are.
+#[derive(Clone, Copy)]
+pub(super) struct Piece {
+    at: [f64; 3],
+    pub vertices: [u32; 4],
+}
+
+impl Piece {
+    /// A piece of no matter what place.
+    #[cfg(test)]
+    pub fn nowhere(vertices: [u32; 4]) -> Self {
+        Piece { at: [0.0; 3], vertices }
+    }
+}
+
+struct Dissection {
+    /// Not numbered yet.
+    free: Vec<bool>,
+    /// What a vertex was last seen as: the tag of one side of a cut, or that of the cut, which is one more.
+    mark: Vec<u32>,
+    tag: u32,
+    /// Filled from its end; `left` are missing.
+    order: Vec<u32>,
+    left: usize,
+}
+
+impl Dissection {
+    /// Numbers a vertex, before all those numbered so far.
+    fn number(&mut self, v: u32) {
+        if std::mem::replace(&mut self.free[v as usize], false) {
+            self.left -= 1;
+            self.order[self.left] = v;
+        }
+    }
+
+    /// Brings the pieces of one side of a cut before those of the other, numbers the vertices on the cut, and returns the
+    /// number of pieces on the first side: neither is empty.
+    fn divide(&mut self, pieces: &mut [Piece]) -> usize {
+        let half = pieces.len() / 2;
+        let mut last = None;
+        let cut = axes(pieces).into_iter().map(|axis| {
+            halve(pieces, half, axis);
+            last = Some(axis);
+            (axis, self.cut(pieces, half))
+        });
+        let Some((axis, mut cut)) = cut.min_by_key(|(_, cut)| cut.len()) else { return half };
+        if last != Some(axis) {
+            halve(pieces, half, axis);
+        }
+        let mut middle = half;
+        if pieces.len() > REFINED && cut.len() < half {
+            middle = self.refine(pieces, half, axis, cut.len());
+            cut = self.cut(pieces, middle);
+        }
+        cut.into_iter().for_each(|v| self.number(v));
+        middle
+    }
+
+    /// Moves the cut across `axis`, after `half` of the pieces, to where it has the fewest vertices among `wide` pieces on each
+    /// side, and returns the number of pieces on the first side.
+    fn refine(&mut self, pieces: &mut [Piece], half: usize, axis: usize, wide: usize) -> usize {
+        halve(&mut pieces[..half], half - wide, axis);
+        halve(&mut pieces[half..], wide, axis);
+        let band = half - wide..half + wide;
+        let (low, high) = (self.tag + 2, self.tag + 3);
+        self.tag = high;
+        pieces[..band.start].iter().flat_map(|piece| piece.vertices).for_each(|v| self.mark[v as usize] = low);
+        let mut sides = Band::new(&pieces[band.clone()], |v| self.free[v as usize]);
+        sides.hold_low(|v| self.mark[v as usize] == low);
+        pieces[band.end..].iter().flat_map(|piece| piece.vertices).for_each(|v| self.mark[v as usize] = high);
+        sides.hold_high(|v| self.mark[v as usize] == high);
+        let is_low = sides.divide();
+        let middle = band.start + is_low.iter().filter(|is_low| **is_low).count();
+        let (mut first, mut second) = (band.start, middle);
+        let unsorted: Vec<Piece> = pieces[band].to_vec();
+        for (piece, is_low) in unsorted.into_iter().zip(is_low) {
+            let to = if is_low { &mut first } else { &mut second };
+            pieces[*to] = piece;
+            *to += 1;
+        }
+        middle
+    }
+
+    /// The vertices without number that are on both sides, of the first `middle` pieces and of the others.
+    fn cut(&mut self, pieces: &[Piece], middle: usize) -> Vec<u32> {
+        let (side, cut) = (self.tag + 2, self.tag + 3);
+        self.tag = cut;
+        pieces[..middle].iter().flat_map(|piece| piece.vertices).for_each(|v| self.mark[v as usize] = side);
+        let mut vertices = Vec::new();
+        for v in pieces[middle..].iter().flat_map(|piece| piece.vertices) {
+            let mark = &mut self.mark[v as usize];
+            if *mark == side && self.free[v as usize] {
+                *mark = cut;
+                vertices.push(v);
+            }
+        }
+        vertices
+    }
+}
+
+/// The axes that a cut may go across, the longest side first.
+fn axes(pieces: &[Piece]) -> Vec<usize> {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for piece in pieces {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(piece.at[axis]);
+            high[axis] = high[axis].max(piece.at[axis]);
+        }
+    }
+    let length = |axis: usize| high[axis] - low[axis];
+    let mut axes = Vec::from([0, 1, 2]);
+    axes.sort_by(|&a, &b| length(b).total_cmp(&length(a)));
+    let longest = length(axes[0]);
+    let long = |&axis: &usize| pieces.len() > LARGE && length(axis) > SHORT * longest;
+    let count = axes.iter().take_while(|axis| long(axis)).count().max(1);
+    axes.truncate(count);
+    axes
+}
+
+/// Brings the lower `half` of the pieces before the others.
+fn halve(pieces: &mut [Piece], half: usize, axis: usize) {
+    pieces.select_nth_unstable_by(half, |a, b| a.at[axis].total_cmp(&b.at[axis]));
+}

@@ -1,0 +1,238 @@
+//! The fewest vertices that separate two sides.
+
+use std::collections::HashMap;
+
+use super::dissection::Piece;
+
+const NONE: u32 = u32::MAX;
+/// In the place of a piece: where paths begin and end.
+const OUTSIDE: u32 = u32::MAX - 1;
+
+/// A band of pieces between two sides, of which some vertices are held to one side or the other.
+///
+/// As many paths as can be, from the low side to the high one through pieces that share vertices, no two with a vertex in
+/// common; then as few vertices, one on each path, cut all (Menger). The paths are found by Dinic's method of
+/// shortest augmentations. Nodes of the network: `2v` and `2v + 1`, where paths enter and leave vertex v, at most one; then
+/// the pieces, with room for any number.
+pub(super) struct Band {
+    /// The vertices of each piece, numbered within the band, or [`NONE`].
+    pieces: Vec<[u32; 4]>,
+    /// The names of the vertices outside.
+    names: Vec<u32>,
+    offsets: Vec<u32>,
+    around: Vec<u32>,
+    low: Vec<bool>,
+    high: Vec<bool>,
+    /// The piece from which a path enters each vertex, and to which it leaves: [`NONE`] without a path.
+    from: Vec<u32>,
+    to: Vec<u32>,
+    level: Vec<u32>,
+}
+
+impl Band {
+    /// The band of these pieces, of whose vertices those that are `free` count.
+    pub fn new(pieces: &[Piece], free: impl Fn(u32) -> bool) -> Self {
+        let mut number = HashMap::with_capacity(pieces.len());
+        let mut names = Vec::with_capacity(pieces.len());
+        let pieces: Vec<[u32; 4]> = pieces
+            .iter()
+            .map(|piece| {
+                piece.vertices.map(|v| match free(v) {
+                    false => NONE,
+                    true => *number.entry(v).or_insert_with(|| {
+                        names.push(v);
+                        names.len() as u32 - 1
+                    }),
+                })
+            })
+            .collect();
+        let count = names.len();
+        let mut offsets = vec![0; count + 1];
+        for &v in pieces.iter().flatten().filter(|v| **v != NONE) {
+            offsets[v as usize + 1] += 1;
+        }
+        for v in 0..count {
+            offsets[v + 1] += offsets[v];
+        }
+        let mut cursor = offsets.clone();
+        let mut around = vec![0; offsets[count] as usize];
+        for (p, piece) in pieces.iter().enumerate() {
+            for &v in piece.iter().filter(|v| **v != NONE) {
+                around[cursor[v as usize] as usize] = p as u32;
+                cursor[v as usize] += 1;
+            }
+        }
+        let level = vec![NONE; 2 * count + pieces.len()];
+        let [low, high] = [(); 2].map(|()| vec![false; count]);
+        let [from, to] = [(); 2].map(|()| vec![NONE; count]);
+        Band { pieces, names, offsets, around, low, high, from, to, level }
+    }
+
+    /// Holds vertices to the low side.
+    pub fn hold_low(&mut self, held: impl Fn(u32) -> bool) {
+        self.low = self.names.iter().map(|&v| held(v)).collect();
+    }
+
+    /// Holds vertices to the high side.
+    pub fn hold_high(&mut self, held: impl Fn(u32) -> bool) {
+        self.high = self.names.iter().map(|&v| held(v)).collect();
+    }
+
+    /// Which pieces are to be on the low side for the fewest vertices to be on both.
+    pub fn divide(mut self) -> Vec<bool> {
+        while self.reach() {
+            let mut next = vec![0; self.level.len()];
+            for v in 0..self.names.len() as u32 {
+                if self.level[2 * v as usize] == 0
+                    && let Some(path) = self.path(2 * v, &mut next)
+                {
+                    self.take(&path);
+                }
+            }
+        }
+        self.level[2 * self.names.len()..].iter().map(|level| *level != NONE).collect()
+    }
+
+    /// Where one can go on from a node: its `k`-th neighbour, or `None` where that way is closed; `Err` after the last.
+    fn neighbour(&self, node: u32, k: u32) -> Result<Option<u32>, ()> {
+        let first_piece = 2 * self.names.len() as u32;
+        if node >= first_piece {
+            let p = node - first_piece;
+            let Some(&v) = self.pieces[p as usize].get(k as usize % 4).filter(|_| k < 8) else { return Err(()) };
+            return Ok(match (v, k < 4) {
+                (NONE, _) => None,
+                (v, true) => Some(2 * v),
+                // Back along a path that comes here from v.
+                (v, false) => (self.to[v as usize] == p).then_some(2 * v + 1),
+            });
+        }
+        let v = node as usize / 2;
+        let has_path = self.from[v] != NONE;
+        match (node % 2, k) {
+            (0, 0) if !has_path => Ok(Some(node + 1)),
+            // Back along the path to where it comes from.
+            (0, 0) => Ok((self.from[v] != OUTSIDE).then(|| first_piece + self.from[v])),
+            (0, _) => Err(()),
+            (_, 0) => Ok(has_path.then_some(node - 1)),
+            _ => {
+                let around = &self.around[self.offsets[v] as usize..self.offsets[v + 1] as usize];
+                around.get(k as usize - 1).map(|p| Some(first_piece + p)).ok_or(())
+            }
+        }
+    }
+
+    /// Whether `node` is where a path may end.
+    fn is_end(&self, node: u32) -> bool {
+        node < 2 * self.names.len() as u32 && node % 2 == 1 && self.high[node as usize / 2]
+    }
+
+    /// Levels of the nodes from the low side; whether the high side is reached.
+    fn reach(&mut self) -> bool {
+        self.level.fill(NONE);
+        let mut queue: Vec<u32> =
+            (0..self.names.len() as u32).filter(|&v| self.low[v as usize]).map(|v| 2 * v).collect();
+        queue.iter().for_each(|&node| self.level[node as usize] = 0);
+        let (mut head, mut last) = (0, NONE);
+        while head < queue.len() && self.level[queue[head] as usize] < last {
+            let node = queue[head];
+            head += 1;
+            if self.is_end(node) {
+                last = self.level[node as usize];
+            }
+            let mut k = 0;
+            while let Ok(neighbour) = self.neighbour(node, k) {
+                k += 1;
+                if let Some(next) = neighbour.filter(|&next| self.level[next as usize] == NONE) {
+                    self.level[next as usize] = self.level[node as usize] + 1;
+                    queue.push(next);
+                }
+            }
+        }
+        last != NONE
+    }
+
+    /// A path from `start` to the high side, each node one level above the last; `next` are the ways not tried yet.
+    fn path(&mut self, start: u32, next: &mut [u32]) -> Option<Vec<u32>> {
+        let mut path = Vec::from([start]);
+        while let Some(&node) = path.last() {
+            if self.is_end(node) {
+                return Some(path);
+            }
+            match self.neighbour(node, next[node as usize]) {
+                Err(()) => {
+                    self.level[node as usize] = NONE;
+                    path.pop();
+                }
+                Ok(neighbour) => {
+                    next[node as usize] += 1;
+                    let above = Some(self.level[node as usize] + 1);
+                    path.extend(neighbour.filter(|&n| above == Some(self.level[n as usize])));
+                }
+            }
+        }
+        None
+    }
+
+    /// Adds a path, whose parts that run back along others replace those.
+    fn take(&mut self, path: &[u32]) {
+        let first_piece = 2 * self.names.len() as u32;
+        let piece = |node: u32| node.checked_sub(first_piece);
+        for (i, &node) in path.iter().enumerate().filter(|(_, node)| **node < first_piece) {
+            // There is room for one path: closed for the others of this round.
+            self.level[node as usize] = NONE;
+            let v = node as usize / 2;
+            let before = if i == 0 { Some(OUTSIDE) } else { piece(path[i - 1]) };
+            let after = path.get(i + 1).map_or(Some(OUTSIDE), |&node| piece(node));
+            match (node % 2 == 0, before, after) {
+                // From a piece to within: from here on the path comes from there.
+                (true, Some(before), _) => self.from[v] = before,
+                (false, _, Some(after)) => self.to[v] = after,
+                // Back through the vertex: none is left.
+                (true, None, _) => self.from[v] = NONE,
+                (false, _, None) => self.to[v] = NONE,
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers below `bound`, from a linear congruence.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn below(&mut self, bound: u32) -> u32 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 33) as u32 % bound
+        }
+    }
+
+    /// Vertices on both sides.
+    fn cut(pieces: &[[u32; 4]], held: [&[bool]; 2], is_low: impl Fn(usize) -> bool) -> usize {
+        let mut sides = held.map(<[bool]>::to_vec);
+        for (p, piece) in pieces.iter().enumerate() {
+            piece.iter().for_each(|&v| sides[usize::from(!is_low(p))][v as usize] = true);
+        }
+        sides[0].iter().zip(&sides[1]).filter(|(low, high)| **low && **high).count()
+    }
+
+    #[test]
+    fn no_division_of_a_band_has_fewer_vertices_on_both_sides() {
+        let mut numbers = Numbers(1);
+        for _ in 0..300 {
+            let vertices = 6 + numbers.below(10);
+            let count = 3 + numbers.below(7) as usize;
+            let pieces: Vec<[u32; 4]> = (0..count).map(|_| [(); 4].map(|()| numbers.below(vertices))).collect();
+            let [low, high] = [(); 2].map(|()| (0..vertices).map(|_| numbers.below(4) == 0).collect::<Vec<bool>>());
+            let places: Vec<Piece> = pieces.iter().map(|&vertices| Piece::nowhere(vertices)).collect();
+            let mut band = Band::new(&places, |_| true);
+            band.hold_low(|v| low[v as usize]);
+            band.hold_high(|v| high[v as usize]);
+            let found = band.divide();
+            let fewest = (0..1usize << count).map(|set| cut(&pieces, [&low, &high], |p| set >> p & 1 == 1)).min();
+            assert_eq!(Some(cut(&pieces, [&low, &high], |p| found[p])), fewest, "{pieces:?} {low:?} {high:?}");
+        }
+    }
+}
