@@ -25,7 +25,7 @@ pub struct Arguments {
     #[arg(long)]
     quick: bool,
     /// Seconds that a process may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 180, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    #[arg(long, value_name = "SECONDS", default_value_t = 120, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     limit: u64,
     /// A Python 3 that has peers (libigl, numpy, scipy, scikit-sparse, pymeshlab) [default: $RIEMAP_PYTHON, else an
     /// environment under target/, made on first use]
@@ -40,7 +40,7 @@ pub struct Arguments {
 }
 
 /// A contestant that has taken this long on a mesh is not run on it again.
-const PATIENCE: Duration = Duration::from_secs(20);
+const PATIENCE: Duration = Duration::from_secs(15);
 
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     let plan = plan(arguments);
