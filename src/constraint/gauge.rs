@@ -53,24 +53,53 @@ pub fn spread_points(graph: &QuadGraph, count: usize) -> Vec<usize> {
 
 /// Holds what the rigid motions, and translations of one colour against the other, leave free, at the places of `z`:
 ///
-/// with L or L', a boundary vertex and the direction of the next boundary edge; with A but neither (only diagonals
-/// enter), a black vertex, the direction of a black diagonal, and a white vertex.
+/// with L or L', a boundary vertex and the direction from it to the farthest on the boundary; with A but neither (only
+/// diagonals enter), a black vertex, the direction to the farthest black one, and a white vertex.
+///
+/// The paper (§3.3) has the direction of the next boundary edge in place of the farthest vertex's. It takes away the same
+/// rotation, but where that edge must turn in the course of a minimisation the whole map must turn around it, by steps that
+/// shrink with the mesh: iterations then grow like its side. [`turn_back`] gives the edge its direction again.
 pub fn hold_gauge(fixed: &mut Fixed, energy: &Expression, graph: &QuadGraph, z: &[Complex64]) {
     let (first, next) = (graph.boundary[0], graph.boundary[1]);
     let at = |v: u32| z[v as usize];
-    if energy.has("L") || energy.has("Lb") {
-        fixed.hold(first, at(first));
-        fixed.hold_on_line(next, at(first), at(next));
+    let away = |v: u32| (at(v) - at(first)).norm();
+    let farthest = |boundary: &mut dyn Iterator<Item = u32>| boundary.max_by(|&v, &w| away(v).total_cmp(&away(w)));
+    let far = if energy.has("L") || energy.has("Lb") {
+        farthest(&mut graph.boundary.iter().copied())
     } else if energy.has("A") {
-        let opposite = graph.quads.iter().find_map(|quad| {
+        fixed.hold(next, at(next));
+        let (class, _) = graph.diagonal_classes();
+        let is_black = |v: &u32| class[*v as usize] == class[first as usize];
+        farthest(&mut graph.boundary.iter().copied().filter(is_black))
+    } else {
+        return;
+    };
+    fixed.hold(first, at(first));
+    if let Some(far) = far.filter(|&far| far != first && away(far) > 0.0) {
+        fixed.hold_on_line(far, at(first), at(far));
+    }
+}
+
+/// Turns a map around the vertex that [`hold_gauge`] holds, so that the next boundary edge has the direction that it has in
+/// `start`; with A but neither L nor L', a black diagonal.
+pub fn turn_back(energy: &Expression, graph: &QuadGraph, start: &[Complex64], z: &mut [Complex64]) {
+    let first = graph.boundary[0];
+    let through = if energy.has("L") || energy.has("Lb") {
+        Some(graph.boundary[1])
+    } else {
+        graph.quads.iter().find_map(|quad| {
             let k = quad.iter().position(|&v| v == first)?;
             Some(quad[(k + 2) % 4])
-        });
-        fixed.hold(first, at(first));
-        if let Some(opposite) = opposite {
-            fixed.hold_on_line(opposite, at(first), at(opposite));
+        })
+    };
+    let Some(through) = through else { return };
+    let centre = z[first as usize];
+    let turn = (start[through as usize] - start[first as usize]) / (z[through as usize] - centre);
+    let turn = turn / turn.norm();
+    if turn.is_finite() {
+        for z in z {
+            *z = centre + turn * (*z - centre);
         }
-        fixed.hold(next, at(next));
     }
 }
 
@@ -88,12 +117,12 @@ pub fn float_white_back(graph: &QuadGraph, metric: &RestMetric, z: &mut [Complex
             _ => None,
         })
     };
-    let mut offset = Complex64::ZERO;
     let energy = |offset: Complex64| -> f64 {
         edges()
             .map(|(a, b, length)| ((z[b as usize] - z[a as usize] + offset).norm_sqr() - length * length).powi(2))
             .sum()
     };
+    let mut offset = Complex64::ZERO;
     let mut lowest = energy(offset);
     // Newton in two unknowns, the Hessian made definite by the Gauss–Newton part where it is not.
     for _ in 0..50 {

@@ -8,7 +8,7 @@ mod gauge;
 pub use boundary::{Shape, on_circle, on_shape};
 pub use elimination::Elimination;
 pub use freedoms::Freedoms;
-pub use gauge::{float_white_back, hold_gauge, spread_points};
+pub use gauge::{float_white_back, hold_gauge, spread_points, turn_back};
 
 use std::collections::BTreeMap;
 

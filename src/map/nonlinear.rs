@@ -11,7 +11,7 @@ use super::reduced::{self, Attempt};
 use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome};
 use crate::backend::nonlinear::smallest_singular_value;
 use crate::backend::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
-use crate::constraint::{Fixed, Freedoms, float_white_back, hold_gauge, on_circle, spread_points};
+use crate::constraint::{Fixed, Freedoms, float_white_back, hold_gauge, on_circle, spread_points, turn_back};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Expression, Order, Rest, energy};
 use crate::objective::{Objective, Terms};
@@ -54,21 +54,21 @@ pub(super) fn minimise(
     let backend = choose(&options.solver)?;
     let metric = domain.rest_metric(options)?;
     let flip_free = is_flip_free(expression);
-    let z = match start {
+    let first = match start {
         Some(z) => z,
         None if flip_free => flip_free::start(options, expression, domain, &metric, &anchors.points, watch)?,
         None => initial(options, expression, disc, graph, &anchors)?,
     };
-    let fixed = held(options, expression, disc, graph, &anchors, &z)?;
-    let unit = if flip_free { flip_free::unit_of_shapes(options, expression, graph, &metric, &z) } else { 1.0 };
+    let mut fixed = held(options, expression, disc, graph, &anchors, &first)?;
+    let unit = if flip_free { flip_free::unit_of_shapes(options, expression, graph, &metric, &first) } else { 1.0 };
     let mut problem = Problem { options, expression, graph, metric: &metric, fixed: fixed.clone(), unit };
     let mut unseen = Vec::new();
     if flip_free {
         let terms = problem.terms()?;
-        unseen = hold_unseen(&mut problem.fixed, &terms, &z);
+        unseen = hold_unseen(&mut problem.fixed, &terms, &first);
     }
     let objective = problem.objective()?;
-    let start = objective.freedoms.restrict(&z);
+    let start = objective.freedoms.restrict(&first);
     let rule = StopRule { tolerance: options.tolerance, reference: None, max_iterations: options.max_iterations };
     let (minimum, iterations) = if options.keep_order && circle {
         problem.in_order(backend, start, rule, watch)?
@@ -82,8 +82,13 @@ pub(super) fn minimise(
     accept(backend, &minimum, options)?;
 
     let mut z = objective.freedoms.expand(&minimum.y);
+    let is_metric = ["A", "L", "Lb"].iter().any(|name| expression.has(name));
+    let has_gauge = is_metric && options.boundary != Boundary::Fixed && options.pins.is_empty() && !expression.has("C");
+    if has_gauge {
+        turn_back(expression, graph, &first, &mut z);
+    }
     let only_diagonals = expression.has("A") && !["L", "Lb", "C"].iter().any(|name| expression.has(name));
-    if only_diagonals && options.boundary != Boundary::Fixed && options.pins.is_empty() {
+    if only_diagonals && has_gauge {
         float_white_back(graph, &metric, &mut z);
     }
     if !unseen.is_empty() {
@@ -92,6 +97,10 @@ pub(super) fn minimise(
     }
     let energies = objective.values(&minimum.y);
     let total = objective.terms.iter().zip(&energies).map(|((t, _), (_, e))| t * e).sum();
+    if has_gauge {
+        fixed = Fixed::default();
+        hold_gauge(&mut fixed, expression, graph, &z);
+    }
     let smallest_singular_value = if circle { smallest_singular_value(&objective, &minimum.y) } else { None };
     Ok(Map {
         z,

@@ -53,15 +53,22 @@ impl Minimiser for LevenbergMarquardt {
             reason,
         })?;
         watch.phase(Phase::Solve);
+        let overdetermined = objective.is_overdetermined();
         let solver = Damped {
             objective,
+            overdetermined,
+            diagonal_share: if overdetermined {
+                DIAGONAL_SHARE.min(DIAGONAL_SUM / unknowns as f64)
+            } else {
+                DIAGONAL_SHARE
+            },
             norm: assembly.norm_values(),
             assembly: &assembly,
             analysis: &analysis,
             may_change: self.curvature.is_none(),
             curvature: self.curvature.unwrap_or(Curvature::GaussNewton),
             crawling: 0,
-            lambda: if objective.is_overdetermined() { CAUTIOUS } else { BOLD },
+            lambda: if overdetermined { CAUTIOUS } else { BOLD },
             growth: 2.0,
             factor: None,
         };
@@ -87,8 +94,13 @@ const LARGEST_DAMPING: f64 = 1e14;
 const BOLD: f64 = 1e-3;
 const CAUTIOUS: f64 = 1.0;
 
-/// The diagonal of B in M: rotations of one colour against the other have no Dirichlet energy.
+/// The diagonal of B in M: rotations of one colour against the other have no Dirichlet energy. Where a map has to move as a
+/// whole, no more than `DIAGONAL_SUM` of one entry in all: with more, a large map tears at the vertex that is held.
 const DIAGONAL_SHARE: f64 = 1e-6;
+const DIAGONAL_SUM: f64 = 4e-3;
+
+/// What λ is multiplied by after a step at the end, where only the gradient tells progress: on to Newton's method.
+const LAST_STEPS: f64 = 0.01;
 
 /// The largest bend of a step, relative to its length, that is trusted.
 const LARGEST_BEND: f64 = 1.0;
@@ -106,6 +118,8 @@ struct Damped<'a> {
     assembly: &'a HessianAssembly<'a>,
     analysis: &'a Analysis<'a>,
     norm: Vec<f64>,
+    overdetermined: bool,
+    diagonal_share: f64,
     may_change: bool,
     curvature: Curvature,
     crawling: usize,
@@ -124,7 +138,7 @@ impl Damped<'_> {
         let mut damping: Vec<f64> = self.norm.iter().map(|m| scale * m).collect();
         for k in 0..columns.size() {
             let at = columns.offsets[k] as usize;
-            damping[at] += DIAGONAL_SHARE * gauss[at];
+            damping[at] += self.diagonal_share * gauss[at];
         }
         damping
     }
@@ -214,6 +228,9 @@ impl<'a> Solver<Target<'a>, Iterate> for Damped<'_> {
                 // The energy can no longer tell which of the two is lower; the gradient can.
                 let gradient = problem.gradient(&next)?;
                 let better = there.is_finite() && dot(&gradient, &gradient) < dot(&g, &g);
+                if better && self.overdetermined {
+                    self.lambda *= LAST_STEPS;
+                }
                 let (y, cost, g) = if better { (next, there, gradient) } else { (y, here, g) };
                 return Ok((state.param(y).cost(cost).gradient(g), None));
             }
