@@ -10,7 +10,7 @@ use riemap::backend::{LINEAR_BACKENDS, MINIMISERS, Observer, Phase, Silent, Stat
 use riemap::constraint::float_white_back;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapError, MapOptions, Mapped, Outcome, Pin, run};
+use riemap::map::{Boundary, MapError, MapOptions, Mapped, Outcome, Pin, Start, run};
 use riemap::surface::Surface;
 
 fn options(energy: &str, weight: Weight) -> MapOptions {
@@ -108,6 +108,43 @@ fn energies_with_integral_weights_converge_to_those_of_the_table() {
             assert!((total(&mapped) - value).abs() < 1e-5, "{energy} {n}: {}", total(&mapped));
             assert!(mapped.map.iterations <= 100, "{energy} {n}: {}", mapped.map.iterations);
         }
+    }
+}
+
+/// The paper's gauge, a boundary vertex and the next edge, took 52 and 110 iterations: as many as the mesh has columns.
+#[test]
+fn iterations_do_not_grow_with_the_mesh() {
+    for energy in ["H + A + L", "H + L"] {
+        for start in [Start::Auto, Start::Circle] {
+            let iterations = [33, 101].map(|n| {
+                let options = MapOptions { start, ..options(energy, Weight::Integral) };
+                let mapped = map(&format!("graph:cos+cos?n={n}"), &options);
+                show(&format!("{energy} {n} {start:?}"), &mapped);
+                assert!(mapped.validity.is_one_to_one());
+                mapped.map.iterations
+            });
+            assert!(iterations[0] <= 15 && iterations[1] <= 20, "{energy} {start:?}: {iterations:?}");
+        }
+    }
+}
+
+#[test]
+fn both_starts_lead_to_the_same_minimum_and_the_same_place() {
+    for energy in ["H + L", "H + A + L"] {
+        let [free, circle] = [Start::Auto, Start::Circle].map(|start| {
+            let options = MapOptions { start, tolerance: 1e-9, ..options(energy, Weight::Integral) };
+            map(GRID_33, &options).map
+        });
+        // The energy is right to the square of the gradient, the places to the gradient over the smallest eigenvalue, about 1e-4.
+        let [a, b] = [&free, &circle].map(|map| map.total.unwrap());
+        assert!((a - b).abs() < 1e-11 * b, "{energy}: {a} {b}");
+        // The first boundary edge begins elsewhere, and has the same direction.
+        let [first, next] = [0, 1].map(|k| map(GRID_33, &options(energy, Weight::Integral)).domain.graph.boundary[k]);
+        let edge = |z: &[Complex64]| z[next as usize] - z[first as usize];
+        assert!((edge(&free.z) / edge(&circle.z) - 1.0).norm() < 1e-5, "{energy}");
+        let apart = |v: usize| (free.z[v] - free.z[first as usize]) - (circle.z[v] - circle.z[first as usize]);
+        let largest = (0..free.z.len()).map(|v| apart(v).norm()).fold(0.0, f64::max);
+        assert!(largest < 1e-5, "{energy}: {largest:e}");
     }
 }
 

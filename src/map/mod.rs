@@ -13,7 +13,7 @@ mod torus;
 
 pub use domain::Domain;
 pub use error::MapError;
-pub use options::{Boundary, Hold, MapOptions, Pin, RhoSource, Valid};
+pub use options::{Boundary, Hold, MapOptions, Pin, RhoSource, Start, Valid};
 pub use texture::TextureCoordinates;
 
 use num_complex::Complex64;

@@ -57,7 +57,10 @@ pub(super) fn minimise(
     let first = match start {
         Some(z) => z,
         None if flip_free => flip_free::start(options, expression, domain, &metric, &anchors.points, watch)?,
-        None => initial(options, expression, disc, graph, &anchors)?,
+        None => match reduced::free_start(options, expression, domain, watch) {
+            Some(z) => z,
+            None => initial(options, expression, disc, graph, &anchors)?,
+        },
     };
     let mut fixed = held(options, expression, disc, graph, &anchors, &first)?;
     let unit = if flip_free { flip_free::unit_of_shapes(options, expression, graph, &metric, &first) } else { 1.0 };

@@ -60,6 +60,17 @@ pub enum Hold {
     Primal,
 }
 
+/// The map that a minimisation begins with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// With lengths or areas in the energy and no circle: the free map, where it is found; else as `circle`.
+    #[default]
+    Auto,
+    /// The paper's (§3.3): the boundary on a circle by arc length, the interior from H.
+    Circle,
+}
+
 /// Whether a convex combination map that rounding has folded is replaced by one with outward weights. Other maps are checked alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -104,6 +115,8 @@ pub struct MapOptions {
     pub fix: usize,
     /// Circle maps: whether the boundary is kept in order.
     pub keep_order: bool,
+    /// What a minimisation begins with.
+    pub start: Start,
     /// Weights of the energies.
     pub weight: Weight,
     /// Dual point of triangle meshes.
@@ -140,6 +153,7 @@ impl Default for MapOptions {
             valid: Valid::default(),
             fix: 3,
             keep_order: false,
+            start: Start::default(),
             weight: Weight::default(),
             dual: "barycentre".to_owned(),
             boundary_dual: BoundaryDual::default(),

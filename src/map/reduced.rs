@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use std::f64::consts::TAU;
 
 use super::nonlinear::Anchors;
-use super::options::hold_pins;
+use super::options::{Start, hold_pins};
 use super::{Boundary, Domain, Exactly, Map, MapError, MapOptions, Outcome};
 use crate::backend::reduced::{self, CircleProblem, FreeProblem, Reduction, Unreduced, circle_map, free_map};
 use crate::backend::{Observer, Phase, StopRule};
@@ -17,6 +17,9 @@ use crate::surface::disc::Disc;
 
 /// Boundary lengths of free maps are kept to ten times the tolerance, and never worse than this.
 const COARSEST_LENGTHS: f64 = 1e-6;
+
+/// How well boundary lengths are kept where the free map is a start.
+const START_LENGTHS: f64 = 1e-3;
 
 /// The other backend's name where the reduction stalled.
 const AFTER_STALL: &str = "levenberg-marquardt (reduced stalled)";
@@ -152,6 +155,49 @@ pub(super) fn attempt(
                 repaired: false,
             })))
         }
+    }
+}
+
+/// The free map as a start for energies that see lengths or areas: conformal, of the right size, corners as they are on the
+/// surface. `None` where it is not suited or not found.
+pub(super) fn free_start(
+    options: &MapOptions,
+    expression: &Expression,
+    domain: &Domain,
+    watch: &mut dyn Observer,
+) -> Option<Vec<Complex64>> {
+    let Domain { disc, graph, planes } = domain;
+    let suits = options.start == Start::Auto
+        && options.boundary != Boundary::Fixed
+        && options.pins.is_empty()
+        && !expression.has("C")
+        && (expression.has("A") || expression.has("L"));
+    if !suits {
+        return None;
+    }
+    watch.phase(Phase::Assemble);
+    let reduction = Reduction::new(graph, || watch.phase(Phase::Factor)).ok()?;
+    watch.phase(Phase::Solve);
+    let curvature = curvature(disc, graph, planes.as_ref().map(|planes| planes.normals.as_slice()));
+    let problem = FreeProblem {
+        reduction: &reduction,
+        curvature: &curvature,
+        lengths: &graph.boundary_length,
+        tolerance: START_LENGTHS,
+        max_iterations: None,
+    };
+    let found = free_map(&problem, &mut Unheard(watch)).ok()?;
+    Some(reduction.extend(&place(graph, &found.boundary)))
+}
+
+/// Passes on a wish to stop, and is silent about iterations.
+struct Unheard<'a>(&'a mut dyn Observer);
+
+impl Observer for Unheard<'_> {
+    fn phase(&mut self, _phase: Phase) {}
+
+    fn stop_requested(&self) -> bool {
+        self.0.stop_requested()
     }
 }
 

@@ -11,7 +11,7 @@ use riemap::constraint::Shape;
 use riemap::energy::Expression;
 use riemap::energy::conformal::Weight;
 use riemap::io::{is_glb, read_positions};
-use riemap::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource, Valid};
+use riemap::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource, Start, Valid};
 use riemap::periodic::Tiling;
 use riemap::quad_graph::RestSource;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
@@ -71,6 +71,10 @@ pub struct Arguments {
     /// Circle maps: keep the boundary points in order
     #[arg(long)]
     pub(super) keep_order: bool,
+    /// What a minimisation begins with: auto (with lengths or areas in the energy the free map, else the circle), circle
+    /// (the boundary on a circle by arc length, as in the paper)
+    #[arg(long, default_value = "auto", value_parser = by_name::<Start>)]
+    pub(super) start: Start,
     /// Weights of the energies: integral (converge under refinement), unit (the paper's)
     #[arg(long, default_value = "integral", value_parser = by_name::<Weight>)]
     pub(super) weight: Weight,
@@ -240,6 +244,7 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
         energy: arguments.energy.clone(),
         fix: arguments.fix.map_or(defaults.fix, usize::from),
         keep_order: arguments.keep_order,
+        start: arguments.start,
         tolerance: arguments.tolerance.unwrap_or(defaults.tolerance),
         max_iterations: arguments.max_iterations,
         shape: arguments.shape.unwrap_or_default(),
