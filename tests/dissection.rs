@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::{Random, disc, graph_of};
 use num_complex::Complex64;
 use riemap::constraint::{Elimination, Fixed};
 use riemap::energy::conformal::{self, Weight};
@@ -18,6 +19,14 @@ fn graph(name: &str) -> QuadGraph {
     let options = MapOptions::default();
     let (disc, _) = Disc::open(&input.surface, &input.diagnosis(), &options.opening()).unwrap();
     Domain::of_positions(disc, &options).unwrap().graph
+}
+
+/// The same, vertices and faces in random order.
+fn shuffled(name: &str) -> QuadGraph {
+    let surface = Input::open(name).unwrap().surface;
+    let mut random = Random(1);
+    let [faces, vertices] = [surface.faces.len(), surface.positions.len()].map(|n| random.permutation(n));
+    graph_of(&disc(&common::shuffled(&surface, &faces, &vertices)), "")
 }
 
 fn boundary_held(graph: &QuadGraph) -> Fixed {
@@ -69,9 +78,15 @@ fn surfaces_of_one_point_are_ordered_too() {
 }
 
 #[test]
+fn meshes_numbered_row_by_row_are_left_to_minimum_degree_which_costs_less_there() {
+    for (graph, order) in [(graph(LARGE[1]), Order::Amd), (shuffled(LARGE[1]), Order::AsGiven)] {
+        assert_eq!(Elimination::for_factor(&graph, &boundary_held(&graph)).order, order);
+    }
+}
+
+#[test]
 fn dissection_fills_as_little_as_minimum_degree_and_solves_the_same() {
-    for name in LARGE {
-        let graph = graph(name);
+    for (name, graph) in [(LARGE[0], graph(LARGE[0])), ("shuffled", shuffled(LARGE[1]))] {
         let fixed = boundary_held(&graph);
         let [plain, dissected] = [Elimination::new(graph.vertices, &fixed), Elimination::for_factor(&graph, &fixed)];
         assert_eq!((plain.order, dissected.order), (Order::Amd, Order::AsGiven), "{name}");
