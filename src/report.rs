@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::distortion::{Distortion, Validity};
 use crate::input::Input;
-use crate::map::{Domain, Exactly, Map, Mapped};
+use crate::map::{Domain, Exactly, LengthsRecord, Map, Mapped};
 use crate::periodic::PeriodsRecord;
 use crate::quad_graph::QuadGraph;
 use crate::surface::cut::CutRecord;
@@ -32,6 +32,9 @@ pub struct Report {
     pub periods: Option<PeriodsRecord>,
     /// Against the exact map, where that is known.
     pub error: Option<ErrorRecord>,
+    /// Free maps with boundary lengths that were asked for: how well they are met.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub boundary_lengths: Option<LengthsRecord>,
 }
 
 /// The surface.
@@ -207,6 +210,10 @@ impl Report {
             solver: SolverRecord::new(map, validity, cost),
             distortion: distortion.clone(),
             periods,
+            boundary_lengths: domain
+                .prescribed
+                .as_ref()
+                .map(|prescribed| LengthsRecord::new(prescribed, disc, graph, &map.z)),
             error: input.exact.as_ref().filter(|_| map.anchored).map(|w| ErrorRecord::new(w, disc, map)),
         }
     }

@@ -4,6 +4,7 @@
 //! [`Surface`] promises, and nothing is repaired. Errors name the line (or the byte) and what stands there.
 
 mod atomic;
+mod boundary_lengths;
 mod error;
 pub mod glb;
 mod matrix_market;
@@ -24,6 +25,7 @@ use std::path::Path;
 use crate::surface::Surface;
 
 pub use atomic::{Staged, atomically, can_be_written, stage};
+pub use boundary_lengths::{BoundaryLengths, BoundaryLengthsError, LengthUnit, PerEdge, read_boundary_lengths};
 pub use error::{Defect, ParseError, Place, ReadError};
 pub use matrix_market::write_matrix_market;
 pub use mesh::VertexText;

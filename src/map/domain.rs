@@ -1,3 +1,4 @@
+use super::lengths::{Prescribed, prescribe};
 use super::{MapError, MapOptions, RhoSource};
 use crate::input::Input;
 use crate::quad_graph::metric::RestMetric;
@@ -18,6 +19,8 @@ pub struct Domain {
     pub planes: Option<TangentPlanes>,
     /// Its quad graph.
     pub graph: QuadGraph,
+    /// Where boundary lengths were asked for: the graph has them in the place of those at rest.
+    pub prescribed: Option<Prescribed>,
 }
 
 impl Domain {
@@ -32,14 +35,15 @@ impl Domain {
     /// The domain of a disc, ρ of quads measured on `planes` where they are given.
     ///
     /// # Errors
-    /// An unknown dual point; faces that give no ρ.
+    /// An unknown dual point; faces that give no ρ; boundary lengths that no map has.
     pub fn with_planes(disc: Disc, planes: Option<TangentPlanes>, options: &MapOptions) -> Result<Self, MapError> {
         let dual = options.dual_point()?;
-        let graph = match disc.faces.arity() {
+        let mut graph = match disc.faces.arity() {
             Some(3) => QuadGraph::from_triangles(&disc, dual, options.boundary_dual)?,
             _ => QuadGraph::from_quads(&disc, planes.as_ref())?,
         };
-        Ok(Domain { disc, planes, graph })
+        let prescribed = prescribe(options, &disc, &mut graph)?;
+        Ok(Domain { disc, planes, graph, prescribed })
     }
 
     /// Its rest lengths and areas.

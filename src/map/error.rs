@@ -1,3 +1,4 @@
+use super::lengths::LengthsError;
 use crate::backend::convex::ConvexError;
 use crate::backend::reduced::Unreduced;
 use crate::backend::{MinimiseError, SolveError, Unsuitable};
@@ -161,6 +162,9 @@ pub enum MapError {
         /// The first of them, as the source numbers them.
         first: Option<u32>,
     },
+    /// Boundary lengths that no map has.
+    #[error(transparent)]
+    Lengths(#[from] LengthsError),
     /// No convex combination map.
     #[error(transparent)]
     Convex(#[from] ConvexError),

@@ -4,6 +4,7 @@ mod convex;
 mod domain;
 mod error;
 mod flip_free;
+mod lengths;
 mod linear;
 mod nonlinear;
 mod options;
@@ -13,6 +14,7 @@ mod torus;
 
 pub use domain::Domain;
 pub use error::MapError;
+pub use lengths::{LengthsError, LengthsRecord, Prescribed};
 pub use options::{Boundary, Hold, MapOptions, Pin, RhoSource, Start, Valid};
 pub use texture::TextureCoordinates;
 

@@ -6,6 +6,7 @@ use crate::backend::StopRule;
 use crate::constraint::{Fixed, Shape, on_shape};
 use crate::energy::Expression;
 use crate::energy::conformal::Weight;
+use crate::io::BoundaryLengths;
 use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS, DualPoint, dual_point};
 use crate::quad_graph::{QuadGraph, RestSource};
 use crate::surface::cut::Opening;
@@ -102,6 +103,8 @@ pub struct MapOptions {
     pub shape: Shape,
     /// Places of boundary vertices, in place of `shape`.
     pub positions: Option<Vec<Pin>>,
+    /// Free maps: lengths of the boundary edges in the place of those at rest.
+    pub boundary_lengths: Option<BoundaryLengths>,
     /// Vertices held beside a fixed boundary, or elsewhere than it says; in place of `fix` for the circle; in place of
     /// the gauge for metric energies.
     pub pins: Vec<Pin>,
@@ -147,6 +150,7 @@ impl Default for MapOptions {
             energy: None,
             shape: Shape::default(),
             positions: None,
+            boundary_lengths: None,
             pins: Vec::new(),
             hold: None,
             weights: None,

@@ -52,7 +52,7 @@ pub(super) fn attempt(
     anchors: &Anchors,
     watch: &mut dyn Observer,
 ) -> Result<Attempt, MapError> {
-    let Domain { disc, graph, planes } = domain;
+    let Domain { disc, graph, planes, prescribed } = domain;
     let by_name = options.solver == reduced::NAME;
     if !by_name && options.solver != "auto" {
         return Ok(Attempt::Elsewhere { after: None, start: None });
@@ -120,6 +120,7 @@ pub(super) fn attempt(
                 reduction: &reduction,
                 curvature: &curvature,
                 lengths: &graph.boundary_length,
+                log_factors: prescribed.as_ref().map(|prescribed| prescribed.log_factors.as_slice()),
                 tolerance: (10.0 * options.tolerance).min(COARSEST_LENGTHS),
                 max_iterations: options.max_iterations,
             };
@@ -166,7 +167,7 @@ pub(super) fn free_start(
     domain: &Domain,
     watch: &mut dyn Observer,
 ) -> Option<Vec<Complex64>> {
-    let Domain { disc, graph, planes } = domain;
+    let Domain { disc, graph, planes, prescribed } = domain;
     let suits = options.start == Start::Auto
         && options.boundary != Boundary::Fixed
         && options.pins.is_empty()
@@ -183,6 +184,7 @@ pub(super) fn free_start(
         reduction: &reduction,
         curvature: &curvature,
         lengths: &graph.boundary_length,
+        log_factors: prescribed.as_ref().map(|prescribed| prescribed.log_factors.as_slice()),
         tolerance: START_LENGTHS,
         max_iterations: None,
     };

@@ -69,6 +69,33 @@ fn positions_hold_what_they_list() {
 }
 
 #[test]
+fn boundary_lengths_of_a_file_are_met_and_reported() {
+    let shell = Shell::new();
+    shell.write("m.obj", hill(5, 1.0, true));
+    let map = ["map", "m.obj", "--boundary-lengths", "lengths.txt", "-o", "o.obj", "--report", "r.json"];
+    let free = |extra: &[&'static str]| [&map[..], &["--boundary", "free"], extra].concat();
+    shell.write("lengths.txt", format!("# a square, each side half as long\nfactors\n{}", "0.5\n".repeat(16)));
+    assert!(shell.done(&free(&[])).contains("16 boundary edges, given by factors"));
+    let report: serde_json::Value = serde_json::from_str(&shell.read("r.json")).unwrap();
+    let lengths = &report["boundary_lengths"];
+    assert_eq!((&lengths["given"], &lengths["edges"]), (&"factors".into(), &16.into()));
+    assert!(lengths["error"]["max"].as_f64().unwrap() < 1e-8, "{lengths}");
+
+    assert!(shell.refused(&map).contains("--boundary free"));
+    for (bad, words) in [
+        ("1\n".repeat(15), &["15 boundary lengths", "16 edges"][..]),
+        ("1\nx\n".to_owned(), &["lengths.txt, line 2", "x"]),
+        ("0 1 1\n".to_owned(), &["has no length", "16 edges"]),
+        ("6 7 1\n".to_owned(), &["6 7", "no boundary edge"]),
+        (format!("{}100\n", "1\n".repeat(15)), &["100", "15", "no polygon"]),
+    ] {
+        shell.write("lengths.txt", bad);
+        let message = shell.refused(&free(&[]));
+        assert!(words.iter().all(|word| message.contains(word)), "{words:?}: {message}");
+    }
+}
+
+#[test]
 fn a_flat_mesh_held_where_it_lies_is_mapped_to_itself() {
     let shell = Shell::new();
     for kind in ["quad", "triangle", "delaunay"] {

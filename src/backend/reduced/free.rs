@@ -25,6 +25,8 @@ pub struct FreeProblem<'a> {
     pub curvature: &'a [f64],
     /// The length of the edge from each boundary vertex to the next (`nb`).
     pub lengths: &'a [f64],
+    /// Where these are not the lengths at rest: ln (length / length at rest) (`nb`).
+    pub log_factors: Option<&'a [f64]>,
     /// Largest |log (l / |e|)| of a boundary edge.
     pub tolerance: f64,
     /// Newton steps at most.
@@ -61,7 +63,7 @@ pub struct FreeStalled {
 /// # Errors
 /// [`FreeStalled`], with the start.
 pub fn free_map(problem: &FreeProblem, watch: &mut dyn Observer) -> Result<FreeMap, FreeStalled> {
-    let begin = start(problem.reduction, problem.curvature, problem.lengths);
+    let begin = start(problem);
     let stalled = |iterations, residual| FreeStalled {
         reason: Unreduced::Stalled { iterations, residual },
         start: begin.clone(),

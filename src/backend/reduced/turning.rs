@@ -2,17 +2,20 @@
 
 use num_complex::Complex64;
 
-use super::Reduction;
 use super::conjugate::project;
+use super::{FreeProblem, Reduction};
 use crate::quad_graph::QuadGraph;
 
 /// A start for the free map, after Sawhney and Crane (Boundary First Flattening, 2017): the curvature of the inside is moved to
 /// the boundary, as a conformal map of the lowest scaling there does it, which tells how the boundary turns; edges keep
-/// their lengths but for what closes the polygon; then the projection to ker M.
+/// the lengths asked for but for what closes the polygon; then the projection to ker M.
 ///
-/// `curvature` (`nv`): what the angles around each vertex lack of 2π, on the boundary of π; its sum is 2π.
-pub(super) fn start(reduction: &Reduction, curvature: &[f64], lengths: &[f64]) -> Vec<Complex64> {
-    let turning = turning(reduction, curvature);
+pub(super) fn start(problem: &FreeProblem) -> Vec<Complex64> {
+    let FreeProblem { reduction, curvature, lengths, log_factors, .. } = *problem;
+    let mut turning = turning(reduction, curvature);
+    if let Some(log_factors) = log_factors {
+        add_normal_derivative(reduction, log_factors, &mut turning);
+    }
     let n = turning.len();
     let mut angle = 0.0;
     let directions: Vec<Complex64> = (0..n)
@@ -51,6 +54,18 @@ fn turning(reduction: &Reduction, curvature: &[f64]) -> Vec<f64> {
     }
     let flux = reduction.whole_flux(&doubled);
     graph.boundary.iter().zip(flux).map(|(&v, f)| curvature[v as usize] + 0.5 * f).collect()
+}
+
+/// Adds to the turning `∂u/∂n ds = 2 S u`, u the harmonic function that is `ln |z'|` on the boundary, for the curvature of the
+/// boundary under the metric `|z'|²` (Sawhney and Crane, Cherrier's formula). Equal factors turn nothing.
+fn add_normal_derivative(reduction: &Reduction, log_factors: &[f64], turning: &mut [f64]) {
+    let n = log_factors.len();
+    if log_factors.iter().all(|u| *u == log_factors[0]) {
+        return;
+    }
+    let mean = |v: usize| Complex64::new(0.5 * (log_factors[(v + n - 1) % n] + log_factors[v]), 0.0);
+    let flux = reduction.s(&(0..n).map(mean).collect::<Vec<_>>());
+    turning.iter_mut().zip(flux).for_each(|(turning, flux)| *turning += 2.0 * flux.re);
 }
 
 /// The number of quads around each vertex.

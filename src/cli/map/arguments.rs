@@ -10,7 +10,7 @@ use riemap::backend::solver_names;
 use riemap::constraint::Shape;
 use riemap::energy::Expression;
 use riemap::energy::conformal::Weight;
-use riemap::io::{is_glb, read_positions};
+use riemap::io::{is_glb, read_boundary_lengths, read_positions};
 use riemap::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource, Start, Valid};
 use riemap::periodic::Tiling;
 use riemap::quad_graph::RestSource;
@@ -50,6 +50,10 @@ pub struct Arguments {
     /// Hold vertices at the places of a file of lines `vertex x y` (vertices from 0), in place of --shape
     #[arg(long, value_name = "FILE")]
     pub(super) positions: Option<PathBuf>,
+    /// Free maps: the lengths that the boundary edges are to have, one number a line in the order of the boundary (`riemap info
+    /// --boundary`), or lines `v w number`; after a first line `factors` multiples of those on the surface
+    #[arg(long, value_name = "FILE")]
+    pub(super) boundary_lengths: Option<PathBuf>,
     /// Hold a vertex (from 0) at a place; repeatable. Beside a fixed boundary; in place of --fix for the circle
     #[arg(long, value_name = "V=X,Y", value_parser = pin, allow_hyphen_values = true)]
     pub(super) pin: Vec<Pin>,
@@ -249,6 +253,7 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
         max_iterations: arguments.max_iterations,
         shape: arguments.shape.unwrap_or_default(),
         positions,
+        boundary_lengths: arguments.boundary_lengths.as_deref().map(read_boundary_lengths).transpose()?,
         pins: arguments.pin.clone(),
         hold: arguments.hold,
         weights: arguments.weights.clone(),

@@ -3,6 +3,7 @@ use std::io::Write;
 use anyhow::Result;
 
 use riemap::backend::Status;
+use riemap::io::LengthUnit;
 use riemap::map::{MapOptions, Mapped, Outcome};
 use riemap::report::{EnergyRecord, Report};
 
@@ -122,6 +123,16 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     }
     if let Some(error) = &record.error {
         writeln!(out, "distance to the exact map: max {:.3e}, rms {:.3e}", error.max, error.rms)?;
+    }
+    if let Some(lengths) = &record.boundary_lengths {
+        let given = if lengths.given == LengthUnit::Factors { "by factors" } else { "as lengths" };
+        writeln!(
+            out,
+            "{}, given {given}, {:.6e} together: off by {:.1e} at most",
+            plural(lengths.edges, "boundary edge", "boundary edges"),
+            lengths.perimeter,
+            lengths.error.max
+        )?;
     }
     if let Some(error) = &distortion.quasi_conformal {
         writeln!(

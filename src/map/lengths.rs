@@ -1,0 +1,196 @@
+//! Free maps whose boundary edges have lengths that are asked for.
+
+use std::collections::HashMap;
+
+use num_complex::Complex64;
+use serde::Serialize;
+
+use super::{Boundary, MapOptions};
+use crate::distortion::MeanMax;
+use crate::io::{BoundaryLengths, LengthUnit, PerEdge};
+use crate::quad_graph::QuadGraph;
+use crate::surface::disc::Disc;
+
+/// Why boundary edges cannot have the lengths that are asked for.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LengthsError {
+    /// Nothing that keeps lengths.
+    #[error(
+        "boundary lengths are kept by L', and the energy is `{energy}`: use --boundary free, or add Lb to --energy"
+    )]
+    NotKept {
+        /// The energy.
+        energy: String,
+    },
+    /// Too few or too many numbers.
+    #[error(
+        "{found} boundary lengths are given, and the boundary has {edges} edges: give one for each, from the vertex that \
+         `riemap info --boundary` lists first"
+    )]
+    Count {
+        /// Numbers given.
+        found: usize,
+        /// Edges there are.
+        edges: usize,
+    },
+    /// Vertices that are not next to each other on the boundary.
+    #[error("{v} {w} is no boundary edge (`riemap info --boundary` lists the boundary's vertices)")]
+    NoSuchEdge {
+        /// The vertex named first.
+        v: u32,
+        /// The other.
+        w: u32,
+    },
+    /// An edge without number.
+    #[error("boundary edge {v} {w} has no length: give one for each of the {edges} edges")]
+    Missing {
+        /// Where the edge begins.
+        v: u32,
+        /// Where it ends.
+        w: u32,
+        /// Edges of the boundary.
+        edges: usize,
+    },
+    /// An edge with two sides on the boundary, which a cut made.
+    #[error(
+        "edge {v} {w} is on the boundary twice, for the surface is cut there: list the lengths in order, without vertices"
+    )]
+    Ambiguous {
+        /// The vertex named first.
+        v: u32,
+        /// The other.
+        w: u32,
+    },
+    /// An edge that the others cannot span.
+    #[error(
+        "boundary edge {v} {w} is to be {length} long, and all others together {others}: no polygon has such edges"
+    )]
+    Open {
+        /// Where the edge begins.
+        v: u32,
+        /// Where it ends.
+        w: u32,
+        /// Its length.
+        length: f64,
+        /// The sum of the others'.
+        others: f64,
+    },
+}
+
+/// Boundary lengths that were asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prescribed {
+    /// How they were given.
+    pub unit: LengthUnit,
+    /// ln (length asked for / length at rest) of each boundary edge of the quad graph (`nb`).
+    pub log_factors: Vec<f64>,
+}
+
+/// Gives the boundary edges of the graph, which is that of the disc, the lengths that `options` ask for in the place of those at
+/// rest; the two halves of a triangle's edge the same factor.
+pub(super) fn prescribe(
+    options: &MapOptions,
+    disc: &Disc,
+    graph: &mut QuadGraph,
+) -> Result<Option<Prescribed>, LengthsError> {
+    let Some(given) = &options.boundary_lengths else { return Ok(None) };
+    let expression = options.expression();
+    if !expression.has("Lb") || matches!(options.boundary, Boundary::Fixed | Boundary::Periodic) {
+        return Err(LengthsError::NotKept { energy: expression.to_string() });
+    }
+    let values = in_order(given, disc)?;
+    let halves = graph.boundary.len() / disc.boundary.len();
+    let mut log_factors = Vec::with_capacity(graph.boundary.len());
+    for (rest, value) in graph.boundary_length.chunks_exact_mut(halves).zip(values) {
+        let factor = match given.unit {
+            LengthUnit::Lengths => value / rest.iter().sum::<f64>(),
+            LengthUnit::Factors => value,
+        };
+        rest.iter_mut().for_each(|length| *length *= factor);
+        log_factors.extend(rest.iter().map(|_| factor.ln()));
+    }
+    let length = |k: usize| graph.boundary_length[halves * k..halves * (k + 1)].iter().sum::<f64>();
+    let whole = graph.perimeter();
+    if let Some(k) = (0..disc.boundary.len()).find(|&k| length(k) >= whole - length(k)) {
+        let [v, w] = ends(disc, k);
+        return Err(LengthsError::Open { v, w, length: length(k), others: whole - length(k) });
+    }
+    Ok(Some(Prescribed { unit: given.unit, log_factors }))
+}
+
+/// The numbers of the edges along the boundary.
+fn in_order(given: &BoundaryLengths, disc: &Disc) -> Result<Vec<f64>, LengthsError> {
+    let edges = disc.boundary.len();
+    let named = match &given.values {
+        PerEdge::InOrder(values) if values.len() == edges => return Ok(values.clone()),
+        PerEdge::InOrder(values) => return Err(LengthsError::Count { found: values.len(), edges }),
+        PerEdge::ByEnds(named) => named,
+    };
+    let unordered = |[v, w]: [u32; 2]| [v.min(w), v.max(w)];
+    let mut position = HashMap::with_capacity(edges);
+    let mut twice = HashMap::new();
+    for k in 0..edges {
+        if let Some(other) = position.insert(unordered(ends(disc, k)), k) {
+            twice.insert(unordered(ends(disc, k)), other);
+        }
+    }
+    let mut values = vec![None; edges];
+    for &([v, w], value) in named {
+        let Some(&k) = position.get(&unordered([v, w])) else { return Err(LengthsError::NoSuchEdge { v, w }) };
+        if twice.contains_key(&unordered([v, w])) {
+            return Err(LengthsError::Ambiguous { v, w });
+        }
+        values[k] = Some(value);
+    }
+    let missing = |k: usize| {
+        let [v, w] = ends(disc, k);
+        LengthsError::Missing { v, w, edges }
+    };
+    values.into_iter().enumerate().map(|(k, value)| value.ok_or_else(|| missing(k))).collect()
+}
+
+/// The ends of the `k`-th boundary edge, as the source numbers them.
+fn ends(disc: &Disc, k: usize) -> [u32; 2] {
+    [k, (k + 1) % disc.boundary.len()].map(|k| disc.source_vertex[disc.boundary[k] as usize])
+}
+
+/// How well the lengths that were asked for are met.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LengthsRecord {
+    /// What was given: `lengths`, or `factors` of those on the surface.
+    pub given: LengthUnit,
+    /// Edges of the mesh's boundary.
+    pub edges: usize,
+    /// The sum of what was asked for.
+    pub perimeter: f64,
+    /// | |e|/l − 1 | over the boundary edges of the quad graph: of a triangle mesh the halves, each of which keeps its own.
+    pub error: MeanMax,
+    /// The same over the mesh's edges, whose halves need not be in line.
+    pub mesh_error: MeanMax,
+}
+
+impl LengthsRecord {
+    /// The record of a map of the graph, whose boundary lengths are those asked for.
+    pub fn new(prescribed: &Prescribed, disc: &Disc, graph: &QuadGraph, z: &[Complex64]) -> Self {
+        let (n, edges) = (graph.boundary.len(), disc.boundary.len());
+        let errors = |step: usize| {
+            let error = |k: usize| {
+                let length: f64 = graph.boundary_length[k..k + step].iter().sum();
+                let [a, b] = [k, (k + step) % n].map(|k| z[graph.boundary[k] as usize]);
+                ((b - a).norm() / length - 1.0).abs()
+            };
+            let errors = || (0..n).step_by(step).map(error);
+            MeanMax {
+                mean: errors().sum::<f64>() / (n / step) as f64,
+                max: errors().fold(0.0, |a, b| if a >= b { a } else { b }),
+            }
+        };
+        LengthsRecord {
+            given: prescribed.unit,
+            edges,
+            perimeter: graph.perimeter(),
+            error: errors(1),
+            mesh_error: errors(n / edges),
+        }
+    }
+}
