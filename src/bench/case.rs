@@ -45,8 +45,8 @@ pub struct Case {
     pub largest: usize,
     /// Slow contestants up to this many vertices.
     pub slow_up_to: usize,
-    /// Whether maps of lengths and areas take part.
-    pub isometric: bool,
+    /// Maps of lengths and areas up to this many vertices.
+    pub isometric_up_to: usize,
 }
 
 impl Case {
@@ -70,7 +70,7 @@ pub static CASES: &[Case] = &[
         source: Source::Generated("graph:cos+cos?n={n}"),
         largest: usize::MAX,
         slow_up_to: usize::MAX,
-        isometric: true,
+        isometric_up_to: usize::MAX,
     },
     Case {
         name: "jittered",
@@ -78,7 +78,7 @@ pub static CASES: &[Case] = &[
         source: Source::Generated("graph:cos+cos?n={n}&jitter=0.3&seed=1"),
         largest: usize::MAX,
         slow_up_to: 10_000,
-        isometric: false,
+        isometric_up_to: 0,
     },
     Case {
         name: "split",
@@ -86,7 +86,7 @@ pub static CASES: &[Case] = &[
         source: Source::Generated("graph:cos+cos?n={n}&mesh=triangle"),
         largest: 100_000,
         slow_up_to: 10_000,
-        isometric: false,
+        isometric_up_to: 0,
     },
     Case {
         name: "delaunay",
@@ -94,7 +94,7 @@ pub static CASES: &[Case] = &[
         source: Source::Generated("graph:cos+cos?n={n}&mesh=delaunay&points=random&seed=1"),
         largest: usize::MAX,
         slow_up_to: 100_000,
-        isometric: true,
+        isometric_up_to: 10_000,
     },
     Case {
         name: "bff-face",
@@ -102,7 +102,7 @@ pub static CASES: &[Case] = &[
         source: Source::File("tri/bff-face.obj"),
         largest: usize::MAX,
         slow_up_to: usize::MAX,
-        isometric: false,
+        isometric_up_to: 0,
     },
 ];
 
@@ -238,8 +238,10 @@ impl Contestant {
     pub fn enters(&self, case: &Case, vertices: usize) -> bool {
         // A size is what was asked for; a grid has a few vertices more or fewer.
         let beyond = |limit: usize| vertices as f64 > 1.1 * limit as f64;
-        let too_large = beyond(self.largest) || self.slow && beyond(case.slow_up_to);
-        !too_large && (case.isometric || self.kind != Kind::Isometric)
+        let all = beyond(self.largest);
+        let slow = self.slow && beyond(case.slow_up_to);
+        let isometric = self.kind == Kind::Isometric && beyond(case.isometric_up_to);
+        !(all || slow || isometric)
     }
 
     /// Whether it is this program.
