@@ -71,6 +71,16 @@ fn every_free_vertex_has_one_place_in_the_order_and_no_other_vertex_has() {
 }
 
 #[test]
+fn parts_that_have_nothing_in_common_are_ordered_too() {
+    let graph = graph(LARGE[1]);
+    // Held along both lines through the middle: whichever way the mesh is halved, no free vertex is on both sides.
+    let is_free = |v: u32| graph.places[v as usize][..2].iter().all(|x| x.abs() > 0.1);
+    let mut order = dissect(&graph.quads, &graph.places, is_free);
+    order.sort_unstable();
+    assert_eq!(order, (0..graph.vertices as u32).filter(|&v| is_free(v)).collect::<Vec<_>>());
+}
+
+#[test]
 fn surfaces_of_one_point_are_ordered_too() {
     let graph = graph("plane?n=40");
     let nowhere = vec![[0.0; 3]; graph.vertices];

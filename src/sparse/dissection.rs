@@ -99,7 +99,8 @@ impl Dissection {
             halve(pieces, half, axis);
         }
         let mut middle = half;
-        if pieces.len() > REFINED && cut.len() < half {
+        // Halves that have nothing in common are cut as well as can be.
+        if pieces.len() > REFINED && (1..half).contains(&cut.len()) {
             middle = self.refine(pieces, half, axis, cut.len());
             cut = self.cut(pieces, middle);
         }
