@@ -97,6 +97,10 @@ fn once(contestant: &Contestant, target: &Target, rules: &Rules) -> Result<Run, 
         command.arg("--quiet").args(options);
         one_thread(&mut command);
     }
+    // What an earlier run has left is not of this one.
+    for file in [&map, &report] {
+        let _ = fs::remove_file(file);
+    }
     // In a folder without anything that a program might take for its own.
     command.current_dir(rules.folder);
     let ended =
@@ -108,17 +112,20 @@ fn once(contestant: &Contestant, target: &Target, rules: &Rules) -> Result<Run, 
         }
         Some(_) => {}
     }
-    let read = |file: &Path| fs::read(file).map_err(BenchError::io(format!("{} left no result", contestant.name)));
+    let lost = || Run::Failed("it ended well and left no map".to_owned());
     Ok(match contestant.program {
-        Program::Riemap(_) => {
-            let report: Value = serde_json::from_slice(&read(&report)?)?;
-            match measured(ours(&report), &ended) {
-                Some(measured) => Run::Done(measured, Ok(quality(&report))),
-                None => Run::Failed("its report lacks times".to_owned()),
+        Program::Riemap(_) => match fs::read(&report) {
+            Ok(bytes) => {
+                let report: Value = serde_json::from_slice(&bytes)?;
+                match measured(&ours(&report), &ended) {
+                    Some(measured) => Run::Done(measured, Ok(quality(&report))),
+                    None => Run::Failed("its report lacks times".to_owned()),
+                }
             }
-        }
-        Program::Peer(_) => match measured(serde_json::from_str(ended.stdout.trim()).unwrap_or_default(), &ended) {
-            Some(measured) => Run::Done(measured, target.quality(&read(&map)?)),
+            Err(_) => lost(),
+        },
+        Program::Peer(_) => match measured(&serde_json::from_str(ended.stdout.trim()).unwrap_or_default(), &ended) {
+            Some(measured) => fs::read(&map).map_or_else(|_| lost(), |map| Run::Done(measured, target.quality(&map))),
             None => Run::Failed(format!("it printed `{}`", last_words(&ended.stdout))),
         },
     })
@@ -138,7 +145,7 @@ fn ours(report: &Value) -> Value {
 }
 
 /// What a process said and what was seen of it; `None` where it did not say how long it took.
-fn measured(answer: Value, ended: &Ended) -> Option<Measured> {
+fn measured(answer: &Value, ended: &Ended) -> Option<Measured> {
     let seconds = |of: &Value| Some(Seconds { cpu: of["cpu"].as_f64(), wall: of["wall"].as_f64()? });
     Some(Measured {
         solve: seconds(&answer["solve"])?,
