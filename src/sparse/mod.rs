@@ -2,6 +2,7 @@
 
 mod cholesky;
 mod dissection;
+mod panel;
 mod pattern;
 mod pruned;
 mod separator;

@@ -6,7 +6,9 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, supernodal::SymbolicSupernodalCholesky,
 };
 use num_complex::Complex64;
+use pulp::Arch;
 
+use super::panel::Panel;
 use super::{Analysis, Breakdown, Columns, Order};
 
 /// `P M Pᵀ = L Lᵀ`, real, by supernodes. A solve from ports to ports touches only the columns that are ancestors of ports in
@@ -22,10 +24,11 @@ pub struct PrunedCholesky {
 
 /// Memory for solves: two real columns, as long as the matrix.
 pub struct Columns2 {
-    re: Vec<f64>,
-    im: Vec<f64>,
-    below_re: Vec<f64>,
-    below_im: Vec<f64>,
+    pub(super) re: Vec<f64>,
+    pub(super) im: Vec<f64>,
+    /// As long as a supernode has rows below its own.
+    pub(super) below_re: Vec<f64>,
+    pub(super) below_im: Vec<f64>,
 }
 
 impl PrunedCholesky {
@@ -175,102 +178,21 @@ impl PrunedCholesky {
     /// the list has them, which a closure excludes.
     fn forward(&self, supernodes: impl Iterator<Item = u32>, work: &mut Columns2) {
         let Some(nodes) = self.nodes() else { return };
-        let Columns2 { re, im, below_re, below_im } = work;
-        for s in supernodes {
-            let panel = Panel::new(nodes, &self.values, s as usize);
-            let (own_re, own_im) = (&mut re[panel.own()], &mut im[panel.own()]);
-            let (sum_re, sum_im) = (&mut below_re[..panel.rows.len()], &mut below_im[..panel.rows.len()]);
-            sum_re.fill(0.0);
-            sum_im.fill(0.0);
-            for j in 0..panel.width {
-                let (diagonal, inside, below) = panel.column(j);
-                let (a, b) = (own_re[j] / diagonal, own_im[j] / diagonal);
-                (own_re[j], own_im[j]) = (a, b);
-                add_multiple(&mut own_re[j + 1..], -a, inside);
-                add_multiple(&mut own_im[j + 1..], -b, inside);
-                add_multiple(sum_re, a, below);
-                add_multiple(sum_im, b, below);
+        // In the widest vectors that the processor has.
+        Arch::new().dispatch(|| {
+            for s in supernodes {
+                Panel::new(nodes, &self.values, s as usize).forward(work);
             }
-            for (i, &row) in panel.rows.iter().enumerate() {
-                re[row as usize] -= sum_re[i];
-                im[row as usize] -= sum_im[i];
-            }
-        }
+        });
     }
 
     /// Lᵀ x = b over these supernodes, descending; x must be known at all rows below theirs.
     fn backward(&self, supernodes: impl Iterator<Item = u32>, work: &mut Columns2) {
         let Some(nodes) = self.nodes() else { return };
-        let Columns2 { re, im, below_re, below_im } = work;
-        for s in supernodes {
-            let panel = Panel::new(nodes, &self.values, s as usize);
-            let (known_re, known_im) = (&mut below_re[..panel.rows.len()], &mut below_im[..panel.rows.len()]);
-            for (i, &row) in panel.rows.iter().enumerate() {
-                (known_re[i], known_im[i]) = (re[row as usize], im[row as usize]);
+        Arch::new().dispatch(|| {
+            for s in supernodes {
+                Panel::new(nodes, &self.values, s as usize).backward(work);
             }
-            let (own_re, own_im) = (&mut re[panel.own()], &mut im[panel.own()]);
-            for j in (0..panel.width).rev() {
-                let (diagonal, inside, below) = panel.column(j);
-                let (a, b) = two_products(inside, &own_re[j + 1..], &own_im[j + 1..]);
-                let (c, d) = two_products(below, known_re, known_im);
-                own_re[j] = (own_re[j] - a - c) / diagonal;
-                own_im[j] = (own_im[j] - b - d) / diagonal;
-            }
-        }
+        });
     }
-}
-
-/// The columns of a supernode, dense, one behind the other: its own rows, then those below.
-struct Panel<'a> {
-    start: usize,
-    width: usize,
-    rows: &'a [u32],
-    values: &'a [f64],
-}
-
-impl<'a> Panel<'a> {
-    fn new(nodes: &'a SymbolicSupernodalCholesky<u32>, values: &'a [f64], s: usize) -> Self {
-        let node = nodes.supernode(s);
-        let width = nodes.supernode_end()[s] as usize - node.start();
-        let at = nodes.col_ptr_for_val()[s] as usize;
-        let rows = node.pattern();
-        Panel { start: node.start(), width, rows, values: &values[at..][..width * (width + rows.len())] }
-    }
-
-    fn own(&self) -> std::ops::Range<usize> {
-        self.start..self.start + self.width
-    }
-
-    /// Column `j`: the diagonal, the supernode's own rows after it, the rows below.
-    fn column(&self, j: usize) -> (f64, &'a [f64], &'a [f64]) {
-        let height = self.width + self.rows.len();
-        let column = &self.values[j * height..(j + 1) * height];
-        (column[j], &column[j + 1..self.width], &column[self.width..])
-    }
-}
-
-/// y += t x
-fn add_multiple(y: &mut [f64], t: f64, x: &[f64]) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y += t * x;
-    }
-}
-
-/// (l·x, l·y), summed in four strands.
-fn two_products(l: &[f64], x: &[f64], y: &[f64]) -> (f64, f64) {
-    let (mut a, mut b) = ([0.0; 4], [0.0; 4]);
-    let n = l.len() & !3;
-    let strands = l[..n].chunks_exact(4).zip(x[..n].chunks_exact(4)).zip(y[..n].chunks_exact(4));
-    for ((l, x), y) in strands {
-        for i in 0..4 {
-            a[i] += l[i] * x[i];
-            b[i] += l[i] * y[i];
-        }
-    }
-    let (mut re, mut im) = ((a[0] + a[1]) + (a[2] + a[3]), (b[0] + b[1]) + (b[2] + b[3]));
-    for i in n..l.len() {
-        re += l[i] * x[i];
-        im += l[i] * y[i];
-    }
-    (re, im)
 }
