@@ -10,7 +10,7 @@ use crate::sparse::{Columns, Pattern, Stencils, pairs_of};
 /// Energies with their coefficients.
 pub type Terms = Vec<(f64, Box<dyn Energy>)>;
 
-/// `E(y) = Σ coefficient × energy(Z y + x0)`: all that a backend may know.
+/// `E(y) = Σ coefficient × energy(x(y))`: all that a backend may know.
 pub struct Objective {
     /// The energies with their coefficients.
     pub terms: Terms,
@@ -21,8 +21,11 @@ pub struct Objective {
 }
 
 impl Objective {
-    /// E(y); +∞ where y is not admitted.
+    /// E(y); +∞ where y is not admitted, or vertices on the circle are out of order.
     pub fn value(&self, y: &[f64]) -> f64 {
+        if !self.freedoms.is_in_order(y) {
+            return f64::INFINITY;
+        }
         let z = self.freedoms.expand(y);
         self.terms.iter().map(|(t, energy)| t * energy.value(&z)).sum()
     }
@@ -42,39 +45,48 @@ impl Objective {
 
     /// ∇E(y) (`m`).
     pub fn gradient(&self, y: &[f64]) -> Vec<f64> {
-        let z = self.freedoms.expand(y);
+        self.freedoms.restrict_gradient(y, &self.gradient_at(&self.freedoms.expand(y)))
+    }
+
+    /// ∂E/∂Re z + i ∂E/∂Im z (`nv`).
+    fn gradient_at(&self, z: &[Complex64]) -> Vec<Complex64> {
         let mut g = vec![Complex64::ZERO; z.len()];
         for (t, energy) in &self.terms {
-            energy.add_gradient(*t, &z, &mut g);
+            energy.add_gradient(*t, z, &mut g);
         }
-        self.freedoms.restrict_gradient(&g)
+        g
     }
 
     /// `Zᵀ Σ 2 r″ ∇r` with r″ the second derivatives of the residuals along p: the bending of the energy's valleys.
     pub fn bending(&self, y: &[f64], p: &[f64]) -> Vec<f64> {
-        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
+        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(y, p));
         let mut g = vec![Complex64::ZERO; z.len()];
         for (t, energy) in &self.terms {
             energy.add_bending(*t, &z, &d, &mut g);
         }
-        self.freedoms.restrict_gradient(&g)
+        self.freedoms.restrict_gradient(y, &g)
     }
 
     /// |J p|², J the Jacobian of all residuals, coefficients' roots included, at y.
     pub fn stretch(&self, y: &[f64], p: &[f64]) -> Option<f64> {
-        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
+        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(y, p));
         self.terms.iter().map(|(t, energy)| Some(t * energy.stretch(&z, &d)?)).sum()
     }
 
     /// How far one may go from y along p before E is no longer finite, but for rounding; see [`Energy::largest_step`].
+    /// Where vertices slide on a circle, of the path's tangent.
     pub fn largest_step(&self, y: &[f64], p: &[f64]) -> f64 {
-        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
-        self.terms.iter().map(|(_, energy)| energy.largest_step(&z, &d)).fold(f64::INFINITY, f64::min)
+        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(y, p));
+        let order = self.freedoms.largest_step(y, p);
+        self.terms.iter().map(|(_, energy)| energy.largest_step(&z, &d)).fold(order, f64::min)
     }
 
     /// The coefficients of `t ↦ E(y + t p)`, where that is a polynomial.
     pub fn along(&self, y: &[f64], p: &[f64]) -> Option<Polynomial> {
-        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(p));
+        if self.freedoms.slides() {
+            return None;
+        }
+        let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(y, p));
         let mut sum = Polynomial::ZERO;
         for (t, energy) in &self.terms {
             sum.add_scaled(*t, &energy.along(&z, &d)?);
@@ -128,8 +140,11 @@ impl<'a> HessianAssembly<'a> {
         let mut assembly = HessianAssembly { objective, stencils, pattern, rows_before, columns, constant: Vec::new() };
         let mut constant = vec![0.0; assembly.columns.rows.len()];
         let origin = vec![Complex64::ZERO; vertices];
-        for (list, (t, energy)) in objective.terms.iter().enumerate().filter(|(_, (_, e))| e.is_quadratic()) {
-            assembly.add(list, *t, energy.as_ref(), &origin, Curvature::GaussNewton, &mut constant);
+        let directions = freedoms.directions(&vec![0.0; freedoms.unknowns()]);
+        for (list, (t, energy)) in
+            objective.terms.iter().enumerate().filter(|(_, (_, e))| is_constant(freedoms, e.as_ref()))
+        {
+            assembly.add(list, *t, energy.as_ref(), (&origin, &directions), Curvature::GaussNewton, &mut constant);
         }
         assembly.constant = constant;
         assembly
@@ -143,30 +158,59 @@ impl<'a> HessianAssembly<'a> {
     /// The values of ∇²E(y) on the pattern.
     pub fn values(&self, y: &[f64], curvature: Curvature) -> Vec<f64> {
         let mut values = self.constant.clone();
-        let z = self.objective.freedoms.expand(y);
-        for (list, (t, energy)) in self.objective.terms.iter().enumerate().filter(|(_, (_, e))| !e.is_quadratic()) {
-            self.add(list, *t, energy.as_ref(), &z, curvature, &mut values);
+        let freedoms = &self.objective.freedoms;
+        let (z, directions) = (freedoms.expand(y), freedoms.directions(y));
+        let terms = self.objective.terms.iter().enumerate();
+        for (list, (t, energy)) in terms.filter(|(_, (_, e))| !is_constant(freedoms, e.as_ref())) {
+            self.add(list, *t, energy.as_ref(), (&z, &directions), curvature, &mut values);
+        }
+        if freedoms.slides() {
+            // ∂²z/∂θ² = −z. Where the energy draws a vertex outwards that is what keeps its steps short.
+            let g = self.objective.gradient_at(&z);
+            for (v, at) in freedoms.angles() {
+                let bend = -(z[v].conj() * g[v]).re;
+                values[self.columns.offsets[at] as usize] += match curvature {
+                    Curvature::Exact => bend,
+                    Curvature::GaussNewton => bend.max(0.0),
+                };
+            }
         }
         values
     }
 
-    /// The values on the pattern of the matrix that measures steps, [`Objective::norm`].
-    pub fn norm_values(&self) -> Vec<f64> {
+    /// The values on the pattern of the matrix that measures steps from y, [`Objective::norm`].
+    pub fn norm_values(&self, y: &[f64]) -> Vec<f64> {
         let list = self.stencils.len() - 1;
         let mut values = vec![0.0; self.columns.rows.len()];
+        let directions = self.objective.freedoms.directions(y);
         for e in 0..self.stencils[list].len() {
-            self.add_block(list, e, 1.0, &self.objective.norm.block(e), &mut values);
+            self.add_block((list, e), 1.0, &self.objective.norm.block(e), &directions, &mut values);
         }
         values
     }
 
     /// Adds t × the Hessian of one energy.
-    fn add(&self, list: usize, t: f64, energy: &dyn Energy, z: &[Complex64], curvature: Curvature, values: &mut [f64]) {
-        energy.hessian(z, curvature, &mut |e, block| self.add_block(list, e, t, block, values));
+    fn add(
+        &self,
+        list: usize,
+        t: f64,
+        energy: &dyn Energy,
+        (z, directions): (&[Complex64], &[Complex64]),
+        curvature: Curvature,
+        values: &mut [f64],
+    ) {
+        energy.hessian(z, curvature, &mut |e, block| self.add_block((list, e), t, block, directions, values));
     }
 
-    /// Adds t × the block of piece e of a list.
-    fn add_block(&self, list: usize, e: usize, t: f64, block: &Block, values: &mut [f64]) {
+    /// Adds t × the block of piece e of a list; `directions` are those of [`Freedoms::directions`].
+    fn add_block(
+        &self,
+        (list, e): (usize, usize),
+        t: f64,
+        block: &Block,
+        directions: &[Complex64],
+        values: &mut [f64],
+    ) {
         let freedoms = &self.objective.freedoms;
         let stencils = &self.stencils[list];
         let stencil = stencils.get(e);
@@ -178,7 +222,7 @@ impl<'a> HessianAssembly<'a> {
             let (i, j) = if stencil[i] >= stencil[j] { (i, j) } else { (j, i) };
             let (row, column) = (stencil[i], stencil[j]);
             let before = self.rows_before[slot as usize] as usize;
-            let part = self.local_block(block, (i, row), (j, column));
+            let part = self.local_block(block, (i, row), (j, column), directions);
             let first_column = freedoms.offset[column as usize] as usize;
             for b in 0..freedoms.width(column as usize) {
                 let start = self.columns.offsets[first_column + b] as usize + before;
@@ -190,21 +234,32 @@ impl<'a> HessianAssembly<'a> {
         }
     }
 
-    /// The 2 × 2 part of a block for two of its vertices, projected on the direction of those on lines.
-    fn local_block(&self, block: &Block, (i, row): (usize, u32), (j, column): (usize, u32)) -> [[f64; 2]; 2] {
+    /// The 2 × 2 part of a block for two of its vertices, projected on the direction of those with one unknown.
+    fn local_block(
+        &self,
+        block: &Block,
+        (i, row): (usize, u32),
+        (j, column): (usize, u32),
+        directions: &[Complex64],
+    ) -> [[f64; 2]; 2] {
         let freedoms = &self.objective.freedoms;
         let mut part =
             [[block[2 * i][2 * j], block[2 * i][2 * j + 1]], [block[2 * i + 1][2 * j], block[2 * i + 1][2 * j + 1]]];
         if freedoms.width(row as usize) == 1 {
-            let d = freedoms.direction(row);
+            let d = directions[row as usize];
             part[0] = [d.re * part[0][0] + d.im * part[1][0], d.re * part[0][1] + d.im * part[1][1]];
         }
         if freedoms.width(column as usize) == 1 {
-            let d = freedoms.direction(column);
+            let d = directions[column as usize];
             for row in &mut part {
                 row[0] = d.re * row[0] + d.im * row[1];
             }
         }
         part
     }
+}
+
+/// Whether the second derivatives of an energy with respect to the unknowns are the same everywhere.
+fn is_constant(freedoms: &Freedoms, energy: &dyn Energy) -> bool {
+    energy.is_quadratic() && !freedoms.slides()
 }

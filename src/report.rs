@@ -139,6 +139,9 @@ pub struct SolverRecord {
     pub locally_injective: bool,
     /// Whether a valid map was put in the place of the plain one.
     pub repaired: bool,
+    /// Faces that the plain map has folded, where a valid one is in its place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plain_folded: Option<usize>,
     /// Iterations; 0 for direct solvers.
     pub iterations: usize,
     /// Euclidean norm of the energy's gradient at the free unknowns.
@@ -294,6 +297,7 @@ impl SolverRecord {
             valid: validity.is_one_to_one(),
             locally_injective: validity.is_locally_one_to_one(),
             repaired: map.repaired,
+            plain_folded: map.plain_folded,
             iterations: map.iterations,
             gradient_norm: map.gradient_norm,
             residual: map.residual,

@@ -10,7 +10,7 @@ use riemap::backend::{LINEAR_BACKENDS, MINIMISERS, Observer, Phase, Silent, Stat
 use riemap::constraint::float_white_back;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapError, MapOptions, Mapped, Outcome, Pin, Start, run};
+use riemap::map::{Boundary, MapError, MapOptions, Mapped, Outcome, Pin, Start, Valid, run};
 use riemap::surface::Surface;
 
 fn options(energy: &str, weight: Weight) -> MapOptions {
@@ -20,7 +20,8 @@ fn options(energy: &str, weight: Weight) -> MapOptions {
     } else {
         Boundary::Free
     };
-    MapOptions { boundary, energy, weight, ..MapOptions::default() }
+    // The plain maps, folds and all.
+    MapOptions { boundary, energy, weight, valid: Valid::Off, ..MapOptions::default() }
 }
 
 fn input(surface: Surface) -> Input {

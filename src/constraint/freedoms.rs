@@ -1,9 +1,11 @@
+use std::f64::consts::TAU;
+
 use num_complex::Complex64;
 
 use super::{Fixed, Line};
 
-/// `x = Z y + x0` over the reals: of a free vertex both coordinates are unknowns, of one on a line the place along it, of
-/// a held one none.
+/// `x = x(y)` over the reals: of a free vertex both coordinates are unknowns, of one on a line the place along it, of one on the unit
+/// circle its angle, of a held one nothing. Without angles `x = Z y + x0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Freedoms {
     /// Where the unknowns of each vertex begin in y (`nv + 1`).
@@ -12,11 +14,30 @@ pub struct Freedoms {
     lines: Vec<(u32, Line)>,
     /// Held values; 0 elsewhere (`nv`).
     z0: Vec<Complex64>,
+    /// The vertices on the unit circle, in order along it; those that are held begin with the first.
+    circle: Vec<Sliding>,
+}
+
+/// A vertex on the unit circle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Sliding {
+    vertex: u32,
+    /// Its angle, where it is held; ascending along the circle.
+    held: Option<f64>,
 }
 
 impl Freedoms {
     /// The freedoms that `fixed` leaves to a map of `vertices` vertices.
     pub fn new(vertices: usize, fixed: &Fixed) -> Self {
+        Self::sliding(vertices, fixed, &[])
+    }
+
+    /// The same where the vertices of `boundary` that are not held slide along the unit circle, and keep their order there.
+    pub fn sliding(vertices: usize, fixed: &Fixed, boundary: &[u32]) -> Self {
+        let mut slides = vec![false; vertices];
+        for &v in boundary {
+            slides[v as usize] = true;
+        }
         let mut offset = Vec::with_capacity(vertices + 1);
         let mut z0 = vec![Complex64::ZERO; vertices];
         let mut lines = Vec::new();
@@ -25,6 +46,7 @@ impl Freedoms {
             offset.push(next);
             match (fixed.place(v), fixed.line(v)) {
                 (Some(place), _) => z0[v as usize] = place,
+                (None, _) if slides[v as usize] => next += 1,
                 (None, Some(line)) => {
                     lines.push((v, line));
                     next += 1;
@@ -33,7 +55,15 @@ impl Freedoms {
             }
         }
         offset.push(next);
-        Freedoms { offset, lines, z0 }
+        let first = boundary.iter().position(|&v| fixed.holds(v)).unwrap_or(0);
+        let mut last: Option<f64> = None;
+        let in_order = boundary[first..].iter().chain(&boundary[..first]).map(|&vertex| {
+            let held = fixed.place(vertex).map(|place| ahead_of(last, place));
+            last = held.or(last);
+            Sliding { vertex, held }
+        });
+        let circle = in_order.collect();
+        Freedoms { offset, lines, z0, circle }
     }
 
     /// Number of real unknowns.
@@ -46,28 +76,49 @@ impl Freedoms {
         (self.offset[v + 1] - self.offset[v]) as usize
     }
 
-    /// The direction of vertex `v`, which is on a line.
-    pub fn direction(&self, v: u32) -> Complex64 {
-        match self.lines.binary_search_by_key(&v, |(w, _)| *w) {
-            Ok(k) => self.lines[k].1.direction,
-            Err(_) => Complex64::ONE,
-        }
+    /// Whether some unknowns are angles, so that x is no linear function of y.
+    pub fn slides(&self) -> bool {
+        self.angles().next().is_some()
     }
 
-    /// z = Z y + x0.
+    /// The vertices that have an angle for unknown, each with its position in y.
+    pub fn angles(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let sliding = self.circle.iter().filter(|s| s.held.is_none());
+        sliding.map(|s| (s.vertex as usize, self.offset[s.vertex as usize] as usize))
+    }
+
+    /// ∂x/∂y of the vertices with one unknown at y; 1 elsewhere (`nv`).
+    pub fn directions(&self, y: &[f64]) -> Vec<Complex64> {
+        let mut directions = vec![Complex64::ONE; self.z0.len()];
+        for &(v, line) in &self.lines {
+            directions[v as usize] = line.direction;
+        }
+        for (v, at) in self.angles() {
+            directions[v] = Complex64::I * Complex64::cis(y[at]);
+        }
+        directions
+    }
+
+    /// x(y).
     pub fn expand(&self, y: &[f64]) -> Vec<Complex64> {
         let mut z = self.z0.clone();
         self.write(y, &mut z);
         for &(v, line) in &self.lines {
             z[v as usize] += line.point;
         }
+        for (v, at) in self.angles() {
+            z[v] = Complex64::cis(y[at]);
+        }
         z
     }
 
-    /// Z y, the change of z that a change of y makes.
-    pub fn expand_direction(&self, y: &[f64]) -> Vec<Complex64> {
+    /// (∂x/∂y) p, the change of x at y that a small change p of y makes.
+    pub fn expand_direction(&self, y: &[f64], p: &[f64]) -> Vec<Complex64> {
         let mut z = vec![Complex64::ZERO; self.z0.len()];
-        self.write(y, &mut z);
+        self.write(p, &mut z);
+        for (v, at) in self.angles() {
+            z[v] = Complex64::I * Complex64::cis(y[at]) * p[at];
+        }
         z
     }
 
@@ -83,26 +134,79 @@ impl Freedoms {
         }
     }
 
-    /// The y nearest to a map z.
+    /// The y nearest to a map z; angles ascend along the circle, by less than 2π in all where z has them in order.
     pub fn restrict(&self, z: &[Complex64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.unknowns()];
         let mut from_point = z.to_vec();
         for &(v, line) in &self.lines {
             from_point[v as usize] -= line.point;
         }
-        self.restrict_gradient(&from_point)
-    }
-
-    /// Zᵀ g, the gradient for y from that for x, ∂/∂Re z + i ∂/∂Im z.
-    pub fn restrict_gradient(&self, g: &[Complex64]) -> Vec<f64> {
-        let mut y = vec![0.0; self.unknowns()];
-        for (v, g) in g.iter().enumerate() {
-            let at = self.offset[v] as usize;
-            match self.width(v) {
-                2 => (y[at], y[at + 1]) = (g.re, g.im),
-                1 => y[at] = (self.direction(v as u32).conj() * g).re,
-                _ => {}
+        self.project(&from_point, &mut y);
+        let mut last = None;
+        for s in &self.circle {
+            let angle = s.held.unwrap_or_else(|| ahead_of(last, z[s.vertex as usize]));
+            if s.held.is_none() {
+                y[self.offset[s.vertex as usize] as usize] = angle;
             }
+            last = Some(angle);
         }
         y
+    }
+
+    /// (∂x/∂y)ᵀ g, the gradient for y at y from that for x, ∂/∂Re z + i ∂/∂Im z.
+    pub fn restrict_gradient(&self, y: &[f64], g: &[Complex64]) -> Vec<f64> {
+        let mut gradient = vec![0.0; self.unknowns()];
+        self.project(g, &mut gradient);
+        for (v, at) in self.angles() {
+            gradient[at] = ((Complex64::I * Complex64::cis(y[at])).conj() * g[v]).re;
+        }
+        gradient
+    }
+
+    /// Zᵀ g, but for angles.
+    fn project(&self, g: &[Complex64], y: &mut [f64]) {
+        for (v, g) in g.iter().enumerate() {
+            let at = self.offset[v] as usize;
+            if self.width(v) == 2 {
+                (y[at], y[at + 1]) = (g.re, g.im);
+            }
+        }
+        for &(v, line) in &self.lines {
+            y[self.offset[v as usize] as usize] = (line.direction.conj() * g[v as usize]).re;
+        }
+    }
+
+    /// Whether the vertices on the circle are in order, each ahead of the one before.
+    pub fn is_in_order(&self, y: &[f64]) -> bool {
+        self.gaps(y).all(|gap| gap > 0.0)
+    }
+
+    /// How far one may go from y along p before a vertex on the circle meets the next; +∞ where none does.
+    pub fn largest_step(&self, y: &[f64], p: &[f64]) -> f64 {
+        let moves = |k: usize| {
+            self.circle[k].held.map_or_else(|| p[self.offset[self.circle[k].vertex as usize] as usize], |_| 0.0)
+        };
+        let n = self.circle.len();
+        let steps = self.gaps(y).enumerate().map(|(k, gap)| {
+            let closing = moves(k) - moves((k + 1) % n);
+            if closing > 0.0 { gap / closing } else { f64::INFINITY }
+        });
+        steps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The angles from each vertex on the circle to the next.
+    fn gaps<'a>(&'a self, y: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let angle =
+            |k: usize| self.circle[k].held.unwrap_or_else(|| y[self.offset[self.circle[k].vertex as usize] as usize]);
+        let n = self.circle.len();
+        (0..n).map(move |k| if k + 1 < n { angle(k + 1) - angle(k) } else { angle(0) + TAU - angle(k) })
+    }
+}
+
+/// The angle of a place, ahead of the last one by less than a turn.
+fn ahead_of(last: Option<f64>, place: Complex64) -> f64 {
+    match last {
+        None => place.arg(),
+        Some(last) => last + (place * Complex64::cis(-last)).arg().rem_euclid(TAU),
     }
 }

@@ -42,6 +42,20 @@ impl Metric {
         Self::new("Lb", rest.weight, edges)
     }
 
+    /// L', over the boundary edges of the mesh itself, which on triangles are two of the quad graph's each.
+    pub fn mesh_boundary_edges(rest: Rest) -> Self {
+        let graph = rest.graph;
+        let n = graph.boundary.len();
+        let radius = graph.perimeter() / TAU;
+        let is_mesh = |k: usize| !graph.is_dual(graph.boundary[k % n]);
+        let edges = (0..n).filter(|&k| is_mesh(k)).map(|k| {
+            let to = if is_mesh(k + 1) { k + 1 } else { k + 2 };
+            let length = (k..to).map(|k| graph.boundary_length[k]).sum();
+            ([graph.boundary[k], graph.boundary[to % n]], length, radius * length)
+        });
+        Self::new("Lb", rest.weight, edges)
+    }
+
     fn new(name: &'static str, weight: Weight, pieces: impl Iterator<Item = ([u32; 2], f64, f64)>) -> Self {
         let (mut edges, mut length_squared, mut root_weight) = (Vec::new(), Vec::new(), Vec::new());
         for (edge, length, area) in pieces {

@@ -29,7 +29,7 @@ impl MapOptions {
         let mut fixed = self.fixed(&domain.disc, &domain.graph)?;
         let first = convex_map(&domain.disc, &(row.make)(&domain.disc)?, &fixed, watch)?;
         let (solution, backend) = match row.convex && self.valid != Valid::Off {
-            true => domain.first_one_to_one((first, row.name), &fixed, watch)?,
+            true => domain.first_accepted((first, row.name), &fixed, &|z| domain.is_one_to_one(z), watch)?,
             false => (first, row.name),
         };
         fixed.hold_dual_boundary(&domain.graph);
@@ -45,19 +45,20 @@ impl MapOptions {
 }
 
 impl Domain {
-    /// Of a map and those by outward weights the first one that is one-to-one, with its name; where none is, the map.
-    pub(super) fn first_one_to_one(
+    /// Of a map and those by outward weights the first one that is accepted, with its name; where none is, the map.
+    pub(super) fn first_accepted(
         &self,
         first: (ConvexSolution, &'static str),
         fixed: &Fixed,
+        accepts: &dyn Fn(&[Complex64]) -> bool,
         watch: &mut dyn Observer,
     ) -> Result<(ConvexSolution, &'static str), MapError> {
-        if self.is_one_to_one(&first.0.z) {
+        if accepts(&first.0.z) {
             return Ok(first);
         }
         for (towards, others) in OUTWARD {
             let solution = convex_map(&self.disc, &outward(&self.disc, towards, others), fixed, watch)?;
-            if self.is_one_to_one(&solution.z) {
+            if accepts(&solution.z) {
                 return Ok((solution, LAST_RESORT));
             }
         }

@@ -32,7 +32,7 @@ pub(super) fn start(
         Boundary::Fixed => options.fixed(&domain.disc, graph)?,
         _ => on_circle(graph, 1.0, if anchors.is_empty() { &[(0, 0.0)] } else { anchors })?,
     };
-    let z = domain.convex_start(&fixed, watch)?;
+    let z = domain.convex_start(&fixed, &|_| true, watch)?;
     let mut z = domain.with_dual_vertices(z, &fixed);
     if options.boundary != Boundary::Fixed && !expression.has("C") && expression.rows().any(|row| row.metric) {
         let scale = (area_at_rest(metric) / image_area(graph, &z)).sqrt();
@@ -42,12 +42,18 @@ pub(super) fn start(
 }
 
 impl Domain {
-    /// The vertices of the mesh under a convex combination map that is one-to-one, exactly: of mean-value weights, of uniform ones, of
-    /// outward ones, the first.
+    /// The vertices of the mesh under a convex combination map that is one-to-one, exactly, and that `suits`: of mean-value weights, of
+    /// uniform ones, of outward ones, the first.
     ///
     /// # Errors
     /// None is: the boundary is held on no convex curve, or double precision does not suffice.
-    pub(super) fn convex_start(&self, fixed: &Fixed, watch: &mut dyn Observer) -> Result<Vec<Complex64>, MapError> {
+    pub(super) fn convex_start(
+        &self,
+        fixed: &Fixed,
+        suits: &dyn Fn(&[Complex64]) -> bool,
+        watch: &mut dyn Observer,
+    ) -> Result<Vec<Complex64>, MapError> {
+        let accepts = |z: &[Complex64]| self.is_one_to_one(z) && suits(z);
         // Where an angle is 0 or π weights that see no geometry are left.
         let map_by = |name: &str, watch: &mut dyn Observer| {
             let weights = edge_weights(name).and_then(|row| (row.make)(&self.disc))?;
@@ -57,14 +63,12 @@ impl Domain {
             Ok(solution) => solution,
             Err(_) => map_by("uniform", watch)?,
         };
-        let (solution, _) = self.first_one_to_one((first, "mean-value"), fixed, watch)?;
-        let validity = self.validity(&solution.z);
-        match validity.is_one_to_one() {
-            true => Ok(solution.z),
-            false => {
-                Err(MapError::NoValidStart { folded: validity.folded.len(), first: validity.folded.first().copied() })
-            }
+        let (solution, _) = self.first_accepted((first, "mean-value"), fixed, &accepts, watch)?;
+        if accepts(&solution.z) {
+            return Ok(solution.z);
         }
+        let folded = self.validity(&solution.z).folded;
+        Err(MapError::NoValidStart { folded: folded.len(), first: folded.first().copied() })
     }
 }
 
@@ -102,7 +106,8 @@ pub(super) fn hold_gauge(fixed: &mut Fixed, expression: &Expression, graph: &Qua
         let mut mesh = graph.boundary.iter().copied().filter(|&v| !graph.is_dual(v));
         if let (Some(first), Some(next)) = (mesh.next(), mesh.next()) {
             fixed.hold(first, at(first));
-            fixed.hold_on_line(next, at(first), at(next));
+            // From where the vertex is: then it stays there exactly.
+            fixed.hold_on_line(next, at(next), at(next) + (at(next) - at(first)));
         }
     } else {
         for k in spread_points(graph, 2) {

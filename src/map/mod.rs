@@ -11,6 +11,7 @@ mod options;
 mod reduced;
 mod texture;
 mod torus;
+mod valid;
 
 pub use domain::Domain;
 pub use error::MapError;
@@ -90,6 +91,8 @@ pub struct Map {
     pub exactly: Option<Exactly>,
     /// Whether it is in the place of a map that was not one-to-one.
     pub repaired: bool,
+    /// Of such a map: how many faces that other one has folded; `None` where it did not converge.
+    pub plain_folded: Option<usize>,
 }
 
 impl Map {
@@ -110,6 +113,7 @@ impl Map {
             anchored: false,
             exactly: None,
             repaired: false,
+            plain_folded: None,
         }
     }
 }
@@ -219,7 +223,13 @@ impl MapOptions {
         match (h_alone, self.boundary) {
             (true, Boundary::Fixed) => self.solve(&domain.graph, self.fixed(&domain.disc, &domain.graph)?, watch),
             (true, _) => Err(MapError::FreeBoundary),
-            (false, _) => nonlinear::minimise(self, &expression, domain, exact, watch),
+            (false, _) => {
+                let plain = nonlinear::minimise(self, &expression, domain, exact, watch);
+                match valid::is_promised(self) {
+                    true => valid::kept_or_replaced(self, domain, plain, watch),
+                    false => plain,
+                }
+            }
         }
     }
 

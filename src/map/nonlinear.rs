@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use super::flip_free::{self, hold_unseen, is_flip_free};
 use super::options::hold_pins;
 use super::reduced::{self, Attempt};
-use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome};
+use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, valid};
 use crate::backend::nonlinear::smallest_singular_value;
 use crate::backend::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
 use crate::constraint::{Fixed, Freedoms, float_white_back, hold_gauge, on_circle, spread_points, turn_back};
@@ -73,14 +73,22 @@ pub(super) fn minimise(
     let objective = problem.objective()?;
     let start = objective.freedoms.restrict(&first);
     let rule = StopRule { tolerance: options.tolerance, reference: None, max_iterations: options.max_iterations };
-    let (minimum, iterations) = if options.keep_order && circle {
-        problem.in_order(backend, start, rule, watch)?
-    } else if problem.is_stiff() && backend.name() == MINIMISERS[0].name() {
-        problem.softened_first(backend, &objective, start, rule, watch)?
-    } else {
-        let minimum = backend.minimise(&objective, start, rule, watch)?;
-        let iterations = minimum.iterations;
-        (minimum, iterations)
+    let run = |rule: StopRule, watch: &mut dyn Observer| {
+        let start = start.clone();
+        if options.keep_order && circle {
+            problem.in_order(backend, start, rule, watch)
+        } else if problem.is_stiff() && backend.name() == MINIMISERS[0].name() {
+            problem.softened_first(backend, &objective, start, rule, watch)
+        } else {
+            let minimum = backend.minimise(&objective, start, rule, watch)?;
+            let iterations = minimum.iterations;
+            Ok((minimum, iterations))
+        }
+    };
+    // Where the reduction has failed and another map takes the place of one that folds, it is not worth while to wait for that.
+    let (minimum, iterations) = match after.is_some() && valid::is_promised(options) {
+        true => valid::unless_hopeless(domain, &objective, rule, watch, run)?,
+        false => run(rule, watch)?,
     };
     accept(backend, &minimum, options)?;
 
@@ -119,6 +127,7 @@ pub(super) fn minimise(
         anchored: anchors.exact,
         exactly: None,
         repaired: false,
+        plain_folded: None,
         fixed,
     })
 }

@@ -72,16 +72,17 @@ pub enum Start {
     Circle,
 }
 
-/// Whether a convex combination map that rounding has folded is replaced by one with outward weights. Other maps are checked alone.
+/// What takes the place of a map that is not one-to-one, or with a free boundary not so near every point: of the plain circle and free
+/// maps, without an energy or pins of one's own, and of convex combination maps that rounding has folded. Other maps are checked alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Valid {
-    /// A map that passes the exact check is left as it is; another is replaced.
+    /// A valid map that is as near to the plain one as can be: H + 0.1 MIPS.
     #[default]
     Auto,
-    /// The same.
+    /// The valid map of least shear, MIPS alone: lower quasi-conformal errors on coarse meshes.
     BestQc,
-    /// Never.
+    /// Nothing.
     Off,
 }
 
@@ -112,7 +113,7 @@ pub struct MapOptions {
     pub hold: Option<Hold>,
     /// With a fixed boundary: the vertices inside are means of their neighbours by these weights, in place of the minimum of H.
     pub weights: Option<String>,
-    /// Whether a convex combination map that is not one-to-one is replaced.
+    /// What takes the place of a map that is not one-to-one.
     pub valid: Valid,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper.
     pub fix: usize,

@@ -112,6 +112,7 @@ pub(super) fn attempt(
                 anchored: anchors.exact,
                 exactly: Some(Exactly::Circle),
                 repaired: false,
+                plain_folded: None,
             })))
         }
         Kind::Free => {
@@ -154,6 +155,7 @@ pub(super) fn attempt(
                 anchored: false,
                 exactly: Some(Exactly::Lengths),
                 repaired: false,
+                plain_folded: None,
             })))
         }
     }

@@ -5,7 +5,7 @@ use riemap::backend::Silent;
 use riemap::backend::convex::{convex_map, edge_weights};
 use riemap::constraint::on_circle;
 use riemap::energy::conformal::Weight;
-use riemap::energy::{Authalic, Circle, Conformal, Curvature, Energy, Metric, Order, Rest, SquareSum};
+use riemap::energy::{Authalic, Circle, Conformal, Curvature, Energy, Gaps, Metric, Order, Rest, SquareSum};
 use riemap::energy::{ENERGIES, Row};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
@@ -67,7 +67,7 @@ impl Case {
         z
     }
 
-    /// All energies that are finite on maps that fold, where they are defined; the barrier too.
+    /// All energies that are finite on maps that fold, where they are defined; the barriers too.
     pub fn energies(&self, weight: Weight, held: &[bool]) -> Vec<Box<dyn Energy>> {
         let rest = self.rest(weight, held);
         let rows = || ENERGIES.iter().filter(|row| !row.flip_free);
@@ -75,6 +75,7 @@ impl Case {
         let defined = weight == Weight::Unit || self.graph.min_re_rho() > 0.0;
         assert_eq!(energies.len(), if defined { rows().count() } else { 2 }, "{}", self.name);
         energies.push(Box::new(Order::new(&self.graph)));
+        energies.push(Box::new(Gaps::new(&self.graph)));
         energies
     }
 

@@ -144,7 +144,13 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched
         if self.stalled >= self.stalled_limit {
             return stop(TerminationReason::SolverConverged, Status::Precision, &mut self.best);
         }
-        self.inner.terminate(state)
+        match self.inner.terminate(state) {
+            // By a measure of its own.
+            TerminationStatus::Terminated(reason @ TerminationReason::SolverConverged) => {
+                stop(reason, Status::Converged, &mut self.best)
+            }
+            status => status,
+        }
     }
 }
 

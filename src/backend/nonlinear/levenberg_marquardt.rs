@@ -62,7 +62,7 @@ impl Minimiser for LevenbergMarquardt {
             } else {
                 DIAGONAL_SHARE
             },
-            norm: assembly.norm_values(),
+            norm: assembly.norm_values(&start),
             assembly: &assembly,
             analysis: &analysis,
             may_change: self.curvature.is_none(),

@@ -6,9 +6,11 @@ mod executor;
 mod first_order;
 mod lbfgs_preconditioned;
 mod levenberg_marquardt;
+mod newton;
 mod spectrum;
 
 pub use levenberg_marquardt::LevenbergMarquardt;
+pub use newton::Newton;
 pub use spectrum::smallest_singular_value;
 
 use super::Observer;
@@ -43,6 +45,7 @@ pub trait Minimiser: Sync {
 /// All iterative backends by name; `auto` takes the first.
 pub static MINIMISERS: &[&dyn Minimiser] = &[
     &LevenbergMarquardt::AUTO,
+    &Newton::ROW,
     &lbfgs_preconditioned::LbfgsPreconditioned,
     &cg_exact::CgExact,
     &first_order::FLETCHER_REEVES,
@@ -75,7 +78,7 @@ impl Default for StopRule {
 /// How a minimisation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// |∇E| is below the tolerance.
+    /// |∇E| is below the tolerance, or what a step may still gain below the one that a solver has for that.
     Converged,
     /// Rounding keeps the energy from falling further, short of the tolerance.
     Precision,

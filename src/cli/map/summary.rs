@@ -32,6 +32,16 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         }
         _ => {}
     }
+    if map.repaired && options.weights.is_none() {
+        let was = match map.plain_folded {
+            None => "did not converge".to_owned(),
+            Some(0) => "had a boundary that crosses itself".to_owned(),
+            Some(n) => format!("had {}", plural(n, "folded face", "folded faces")),
+        };
+        eprintln!(
+            "riemap: note: the plain map {was}, and a valid one is in its place (--valid off keeps the plain one)"
+        );
+    }
     let mut help: Vec<&str> = Vec::new();
     help.extend(mapped.domain.is_of_triangles().then_some("another --dual"));
     help.extend(mapped.domain.planes.is_some().then_some("other --normals"));

@@ -7,7 +7,7 @@ use super::{Drawn, GREY, INK, Point, Subject, VERMILION, closed, label, line};
 use crate::backend::Silent;
 use crate::experiment::RunError;
 use crate::figure::{Colour, Diagram, Form, Item, Panel};
-use crate::map::{self, MapOptions, Mapped};
+use crate::map::{self, MapOptions, Mapped, Valid};
 use crate::surface::edges::Edges;
 
 /// Numbers of fixed points.
@@ -17,7 +17,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
     let (mut panels, mut numbers) = (Vec::new(), serde_json::Map::new());
     for (fix, word) in FIXED.into_iter().zip(["two", "three"]) {
         // What the minimisation begins with is its map after no iteration.
-        let options = MapOptions { fix, max_iterations: Some(0), ..subject.options.clone() };
+        let options = MapOptions { fix, max_iterations: Some(0), valid: Valid::Off, ..subject.options.clone() };
         let mapped = map::run(subject.input, &options, &mut Silent)?;
         if panels.is_empty() {
             panels

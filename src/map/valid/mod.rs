@@ -1,0 +1,161 @@
+//! Valid maps: what takes the place of a plain map that is not one-to-one (design: §10).
+//!
+//! Everything starts from a convex combination map that passes the exact check, and goes on by Newton's method under an energy that is +∞
+//! where a face folds. So every iterate is valid, and a minimisation that is interrupted leaves a valid map.
+
+mod circle;
+mod free;
+mod hopeless;
+
+pub(super) use hopeless::unless_hopeless;
+
+use num_complex::Complex64;
+
+use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
+use crate::backend::nonlinear::Newton;
+use crate::backend::{MinimiseError, Minimiser, Observer, SolveError, Status, StopRule};
+use crate::constraint::{Fixed, Freedoms};
+use crate::energy::conformal::{Dirichlet, Weight};
+use crate::energy::{Mips, Rest};
+use crate::objective::{Objective, Terms};
+use crate::quad_graph::metric::RestMetric;
+
+/// The name of the backend in reports.
+const BACKEND: &str = "newton (valid)";
+
+/// Iterations of one stage at most, where nothing else is said: as many as a mesh of this many faces has one, within bounds. Long
+/// protrusions converge slowly, by a few per cent a step; what is reached by then is valid.
+const FACES_TIMES_ITERATIONS: usize = 10_000_000;
+const MOST_ITERATIONS: std::ops::RangeInclusive<usize> = 150..=1000;
+
+/// Whether the plain map is to be replaced where it is not valid.
+pub(super) fn is_promised(options: &MapOptions) -> bool {
+    options.valid != Valid::Off
+        && options.energy.is_none()
+        && options.pins.is_empty()
+        && options.boundary_lengths.is_none()
+        && matches!(options.boundary, Boundary::Circle | Boundary::Free)
+}
+
+/// The plain map where it passes the exact check, which for free maps may overlap itself; else, or where there is none because it did not
+/// converge, a valid one.
+pub(super) fn kept_or_replaced(
+    options: &MapOptions,
+    domain: &Domain,
+    plain: Result<Map, MapError>,
+    watch: &mut dyn Observer,
+) -> Result<Map, MapError> {
+    let (folded, spent) = match &plain {
+        Ok(map) => {
+            let validity = domain.validity(&map.z[..domain.disc.positions.len()]);
+            let is_valid = match options.boundary {
+                Boundary::Free => validity.is_locally_one_to_one(),
+                _ => validity.is_one_to_one(),
+            };
+            if is_valid {
+                return plain;
+            }
+            (Some(validity.folded.len()), map.iterations)
+        }
+        Err(MapError::NotConverged { iterations, .. }) => (None, *iterations),
+        // A start, or a matrix, beyond the range of doubles: others may be within.
+        Err(MapError::Minimise(_) | MapError::Solve(SolveError::Singular { .. })) => (None, 0),
+        Err(_) => return plain,
+    };
+    let metric = domain.rest_metric(options)?;
+    let left = options.max_iterations.map(|n| n.saturating_sub(spent));
+    let repair = Repair { options, domain, metric: &metric, left };
+    let map = match options.boundary {
+        Boundary::Free => repair.free(watch)?,
+        _ => repair.circle(watch)?,
+    };
+    Ok(Map { iterations: map.iterations + spent, repaired: true, plain_folded: folded, ..map })
+}
+
+/// What a repair knows.
+struct Repair<'a> {
+    options: &'a MapOptions,
+    domain: &'a Domain,
+    metric: &'a RestMetric,
+    /// Iterations that are left, where there is a limit.
+    left: Option<usize>,
+}
+
+/// A valid map on its way, and what is known of it.
+struct Stage {
+    z: Vec<Complex64>,
+    energies: Vec<(&'static str, f64)>,
+    total: Option<f64>,
+    gradient_norm: Option<f64>,
+    status: Status,
+    /// Of all stages.
+    iterations: usize,
+}
+
+impl Stage {
+    /// A map that nothing has been minimised on.
+    fn start(z: Vec<Complex64>) -> Self {
+        Stage { z, energies: Vec::new(), total: None, gradient_norm: None, status: Status::Precision, iterations: 0 }
+    }
+}
+
+impl Repair<'_> {
+    fn rest<'b>(&'b self, held: &'b [bool], weight: Weight) -> Rest<'b> {
+        Rest { graph: &self.domain.graph, metric: self.metric, weight, held }
+    }
+
+    /// MIPS, times `unit`.
+    fn mips(&self, unit: f64) -> Result<Terms, MapError> {
+        let mips = Mips::new(self.rest(&[], Weight::Integral))?;
+        Ok(vec![(unit, Box::new(mips))])
+    }
+
+    fn objective(&self, terms: Terms, freedoms: Freedoms) -> Objective {
+        Objective { terms, freedoms, norm: Dirichlet::new(&self.domain.graph, Weight::Integral) }
+    }
+
+    /// Goes on from `stage`, by as many iterations as are left. Where parts are so small that rounding folds a face as soon as places
+    /// become unknowns, it stays where it is.
+    fn minimise(&self, objective: &Objective, stage: Stage, watch: &mut dyn Observer) -> Result<Stage, MapError> {
+        let start = objective.freedoms.restrict(&stage.z);
+        if !objective.value(&start).is_finite() {
+            return Ok(Stage { status: Status::Precision, ..stage });
+        }
+        let most = (FACES_TIMES_ITERATIONS / self.domain.disc.faces.len())
+            .clamp(*MOST_ITERATIONS.start(), *MOST_ITERATIONS.end());
+        let left = self.left.map_or(most, |n| n.saturating_sub(stage.iterations));
+        // What a step may gain decides: the gradient of a start with parts of the size 1e-20 is no measure.
+        let rule = StopRule { tolerance: f64::MIN_POSITIVE, reference: None, max_iterations: Some(left) };
+        let newton = Newton { smallest_gain: self.options.tolerance };
+        let minimum = match newton.minimise(objective, start, rule, watch) {
+            Err(MinimiseError::StartNotFinite) => return Ok(Stage { status: Status::Precision, ..stage }),
+            minimum => minimum?,
+        };
+        let energies = objective.values(&minimum.y);
+        Ok(Stage {
+            z: objective.freedoms.expand(&minimum.y),
+            total: Some(objective.terms.iter().zip(&energies).map(|((t, _), (_, e))| t * e).sum()),
+            energies,
+            gradient_norm: Some(minimum.gradient_norm),
+            status: minimum.status,
+            iterations: stage.iterations + minimum.iterations,
+        })
+    }
+
+    /// The map that a stage has reached.
+    fn map(&self, stage: Stage, fixed: Fixed) -> Map {
+        Map {
+            total: stage.total,
+            gradient_norm: stage.gradient_norm,
+            energies: stage.energies,
+            outcome: Outcome::Minimised(stage.status),
+            iterations: stage.iterations,
+            ..Map::solved(BACKEND, stage.z, fixed, None)
+        }
+    }
+
+    /// Whether to go on to the next stage: it is of no use where this one has not come to its end.
+    fn goes_on(&self, stage: &Stage) -> bool {
+        matches!(stage.status, Status::Converged | Status::Precision) && self.left.is_none_or(|n| stage.iterations < n)
+    }
+}

@@ -1,0 +1,283 @@
+//! A valid map on every disc: hard shapes by construction, random discs of terrible triangles, public meshes.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use common::*;
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use riemap::backend::{Iteration, Observer, Phase, Silent, Status};
+use riemap::input::Input;
+use riemap::map::{Boundary, MapOptions, Mapped, Outcome, Valid, run};
+use riemap::surface::Surface;
+
+/// A quarter of a turn around a tube of this many sides, `rings` times; the first ring is the boundary.
+fn tube(sides: u32, rings: u32, height: f64) -> (Vec<[f64; 3]>, Vec<[u32; 4]>) {
+    let ring = |k: u32| {
+        (0..sides).map(move |i| {
+            let angle = TAU * f64::from(i) / f64::from(sides);
+            [angle.cos(), angle.sin(), height * f64::from(k)]
+        })
+    };
+    let faces = (0..rings).flat_map(|k| {
+        (0..sides).map(move |i| {
+            [k * sides + i, k * sides + (i + 1) % sides, (k + 1) * sides + (i + 1) % sides, (k + 1) * sides + i]
+        })
+    });
+    ((0..=rings).flat_map(ring).collect(), faces.collect())
+}
+
+/// A long tube with one end closed by a fan: conformal maps shrink the end by e^{−2π length/girth}.
+fn capsule(length: u32) -> Surface {
+    let sides = 12;
+    let (mut positions, quads) = tube(sides, length, 0.5);
+    let tip = positions.len() as u32;
+    positions.push([0.0, 0.0, 0.5 * f64::from(length) + 0.3]);
+    let walls = quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]);
+    let fan = (0..sides).map(|i| [length * sides + i, length * sides + (i + 1) % sides, tip]);
+    surface(positions, walls.chain(fan).map(|f| f.to_vec()))
+}
+
+/// A square with spikes drawn out of it, `height` times as high as a cell is wide.
+fn spikes(n: u32, height: f64) -> Surface {
+    let mut grid = triangulated(&quad_grid(n, n, Sides::Free));
+    for v in 0..(n + 1) * (n + 1) {
+        let (i, j) = (v % (n + 1), v / (n + 1));
+        let spike = if i % 4 == 2 && j % 4 == 2 { height } else { 0.0 };
+        grid.positions[v as usize] = [f64::from(i), f64::from(j), spike];
+    }
+    grid
+}
+
+/// Teeth of a comb: strips `length` cells long and one wide on a common back, `teeth` of them.
+fn comb(teeth: u32, length: u32) -> Surface {
+    let grid = quad_grid(2 * teeth - 1, length + 1, Sides::Free);
+    let across = 2 * teeth;
+    let mut s = grid;
+    for (v, p) in s.positions.iter_mut().enumerate() {
+        *p = [f64::from(v as u32 % across), f64::from(v as u32 / across), 0.0];
+    }
+    let kept = filtered(&s, |f| (f as u32) / (2 * teeth - 1) == 0 || ((f as u32) % (2 * teeth - 1)).is_multiple_of(2));
+    triangulated(&kept)
+}
+
+/// A strip `n` cells long that is wound up in the plane, one cell wide.
+fn spiral(n: u32) -> Surface {
+    let mut s = quad_grid(n, 1, Sides::Free);
+    for (v, p) in s.positions.iter_mut().enumerate() {
+        let (i, j) = (v as u32 % (n + 1), v as u32 / (n + 1));
+        let angle = 0.15 * f64::from(i);
+        let radius = 5.0 + 0.3 * angle - 0.8 * f64::from(j);
+        *p = [radius * angle.cos(), radius * angle.sin(), 0.0];
+    }
+    // The inner side has the larger j here: seen from above the faces turn right.
+    let all = 0..s.faces.len();
+    triangulated(&flipped(&s, all))
+}
+
+/// The cells of a grid over a disc, its boundary a staircase.
+fn staircase(n: u32, bump: f64) -> Surface {
+    let grid = quad_grid(n, n, Sides::Free);
+    let place = |v: u32| [f64::from(v % (n + 1)), f64::from(v / (n + 1))].map(|x| 2.0 * x / f64::from(n) - 1.0);
+    let positions = (0..(n + 1) * (n + 1)).map(|v| {
+        let [x, y] = place(v);
+        [x, y, bump * (2.0 * x * x + x * y)]
+    });
+    let inside = |face: &[u32]| {
+        let [x, y] = face.iter().fold([0.0; 2], |m, &v| [m[0] + 0.25 * place(v)[0], m[1] + 0.25 * place(v)[1]]);
+        x * x + y * y < 1.0
+    };
+    surface(positions.collect(), grid.faces.iter().filter(|face| inside(face)))
+}
+
+/// A flat grid of triangles whose vertices are anywhere within their cells, and heights to match.
+fn rough(n: u32, random: &mut Random) -> Surface {
+    let mut s = triangulated(&quad_grid(n, n, Sides::Free));
+    for (v, p) in s.positions.iter_mut().enumerate() {
+        let (i, j) = (v as u32 % (n + 1), v as u32 / (n + 1));
+        *p = [f64::from(i) + 0.49 * random.real(), f64::from(j) + 0.49 * random.real(), 2.0 * random.real()];
+    }
+    s
+}
+
+fn mapped(s: Surface, options: &MapOptions, what: &str) -> Mapped {
+    run(&Input::of(what.to_owned(), s), options, &mut Silent).unwrap_or_else(|error| panic!("{what}: {error}"))
+}
+
+fn shows(what: &str, mapped: &Mapped) {
+    println!(
+        "{what}: {} {} after {}, folded before {:?}, σ1/σ2 {:?}",
+        mapped.map.backend,
+        mapped.map.outcome.name(),
+        mapped.map.iterations,
+        mapped.map.plain_folded,
+        mapped.distortion.quasi_conformal.map(|e| e.mean)
+    );
+}
+
+/// Circle maps are one-to-one, free ones near every point; `best-qc` has no higher MIPS than `auto`.
+fn assert_valid(s: &Surface, what: &str) {
+    let circle = mapped(s.clone(), &MapOptions::default(), what);
+    shows(&format!("{what}, circle"), &circle);
+    assert!(circle.validity.is_one_to_one(), "{what}: {:?}", circle.validity);
+    assert_eq!(circle.distortion.boundary_out_of_order, Some(0), "{what}");
+    let free = mapped(s.clone(), &MapOptions { boundary: Boundary::Free, ..MapOptions::default() }, what);
+    shows(&format!("{what}, free"), &free);
+    assert!(free.validity.is_locally_one_to_one(), "{what}: {:?}", free.validity);
+}
+
+#[test]
+fn hard_shapes_have_valid_maps_circle_and_free() {
+    let shapes = [
+        ("capsule", capsule(24)),
+        ("spikes", spikes(16, 20.0)),
+        ("comb", comb(8, 12)),
+        ("spiral strip", spiral(120)),
+        ("staircase", staircase(24, 0.3)),
+        ("triangulated staircase", triangulated(&staircase(24, 0.3))),
+        ("rough", rough(20, &mut Random(3))),
+    ];
+    let mut replaced = 0;
+    for (what, s) in &shapes {
+        assert_valid(s, what);
+        replaced += usize::from(mapped(s.clone(), &MapOptions::default(), what).map.repaired);
+    }
+    assert!(replaced >= 3, "hard shapes that are not hard: {replaced} replaced");
+}
+
+#[test]
+fn a_plain_map_that_is_valid_is_kept_bit_for_bit() {
+    for name in ["sphere?n=12&mesh=delaunay", "graph:cos+cos?n=12&mesh=quad", "enneper?n=9&mesh=triangle"] {
+        for boundary in [Boundary::Circle, Boundary::Free] {
+            let of = |valid| {
+                let options = MapOptions { boundary, valid, ..MapOptions::default() };
+                run(&Input::open(name).unwrap(), &options, &mut Silent).unwrap().map
+            };
+            let (plain, kept) = (of(Valid::Off), of(Valid::Auto));
+            assert_eq!((plain.z, plain.backend), (kept.z, kept.backend), "{name} {boundary:?}");
+            assert!(!kept.repaired && kept.plain_folded.is_none());
+        }
+    }
+}
+
+#[test]
+fn the_map_of_least_shear_has_the_lower_mips() {
+    let s = rough(16, &mut Random(5));
+    let mips = |valid| {
+        let mapped = mapped(s.clone(), &MapOptions { valid, ..MapOptions::default() }, "rough");
+        assert!(mapped.map.repaired && mapped.map.plain_folded > Some(0) && mapped.validity.is_one_to_one());
+        // Both on the unit disc.
+        let last = mapped.domain.disc.boundary.iter().map(|&v| (mapped.map.z[v as usize].norm() - 1.0).abs());
+        assert!(last.fold(0.0, f64::max) < 1e-15);
+        mapped.map.energies.iter().find(|(name, _)| *name == "MIPS").unwrap().1
+    };
+    assert!(mips(Valid::BestQc) < mips(Valid::Auto));
+}
+
+/// Asks for a stop after this many iterations in all.
+struct Stopper(usize);
+
+impl Observer for Stopper {
+    fn phase(&mut self, _phase: Phase) {}
+
+    fn iteration(&mut self, _iteration: &Iteration) {
+        self.0 = self.0.saturating_sub(1);
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.0 == 0
+    }
+}
+
+#[test]
+fn a_map_that_is_interrupted_or_cut_short_is_valid_at_any_time() {
+    let s = rough(14, &mut Random(7));
+    for boundary in [Boundary::Circle, Boundary::Free] {
+        for n in [0, 1, 2, 5, 9, 14, 20, 30] {
+            let options = MapOptions { boundary, ..MapOptions::default() };
+            let stopped = run(&Input::of("rough".to_owned(), s.clone()), &options, &mut Stopper(n)).unwrap();
+            assert!(stopped.validity.is_locally_one_to_one(), "{boundary:?} stopped after {n}");
+            let limited = MapOptions { max_iterations: Some(n), ..options };
+            let limited = mapped(s.clone(), &limited, "rough");
+            assert!(limited.validity.is_locally_one_to_one(), "{boundary:?} limited to {n}");
+            assert!(limited.map.iterations <= n, "{} of {n}", limited.map.iterations);
+            if n < 5 {
+                assert_eq!(limited.map.outcome, Outcome::Minimised(Status::MaxIterations));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_smallest_discs_are_mapped() {
+    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [1.2, 1.0, 0.0], [0.0, 0.7, 0.0]];
+    let one = surface(corners[..3].to_vec(), [[0, 1, 2]]);
+    let two = surface(corners.clone(), [[0, 1, 2], [0, 2, 3]]);
+    let quad = surface(corners, [[0, 1, 2, 3]]);
+    for (what, s) in [("one triangle", one), ("two triangles", two), ("one quad", quad)] {
+        assert_valid(&s, what);
+    }
+}
+
+/// A grid or a disc grown face by face, its vertices anywhere, at sizes over six decades: triangles of every badness.
+fn terrible(seed: u64, size: usize, grown: bool) -> Surface {
+    let mut random = Random(seed);
+    let mut s = match grown {
+        true => grown_disc(3, size, &mut random),
+        false => triangulated(&quad_grid(2 + (size as u32) % 13, 2 + (size as u32) / 13, Sides::Free)),
+    };
+    for p in &mut s.positions {
+        let scale = 10f64.powf(3.0 * random.real());
+        *p = random.vector().map(|x| scale * x);
+    }
+    s
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        cases: 24,
+        rng_seed: RngSeed::Fixed(7),
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn random_discs_of_terrible_triangles_never_fold(seed in any::<u64>(), size in 4usize..400, grown in any::<bool>()) {
+        let (s, what) = (terrible(seed, size, grown), format!("seed {seed}, size {size}, grown {grown}"));
+        let circle = mapped(s.clone(), &MapOptions { max_iterations: Some(60), ..MapOptions::default() }, &what);
+        prop_assert!(circle.validity.is_one_to_one(), "{what}: {:?}", circle.validity);
+        let options = MapOptions { boundary: Boundary::Free, max_iterations: Some(60), ..MapOptions::default() };
+        let free = mapped(s, &options, &what);
+        prop_assert!(free.validity.folded.is_empty(), "{what}: {:?}", free.validity);
+    }
+}
+
+#[test]
+fn a_random_disc_of_ten_thousand_faces_does_not_fold() {
+    assert_valid(&rough(70, &mut Random(11)), "rough, 9800 faces");
+}
+
+#[test]
+fn every_public_disc_has_a_valid_map() {
+    let Some(folder) = data_folder() else {
+        println!("skipped: no public meshes in $RIEMAP_DATA, ../shared/data or data");
+        return;
+    };
+    for file in ["bff-face.obj", "bunny_cut.obj", "camelhead.off", "cat_head.obj", "maze.obj", "three_peaks.off"] {
+        let path = folder.join("tri").join(file);
+        for boundary in [Boundary::Circle, Boundary::Free] {
+            // As far as it comes: long parts converge slowly, and are valid on the way.
+            let options = MapOptions { boundary, max_iterations: Some(100), ..MapOptions::default() };
+            let mapped = run(&Input::open(path.to_str().unwrap()).unwrap(), &options, &mut Silent).unwrap();
+            shows(&format!("{file} {boundary:?}"), &mapped);
+            assert!(mapped.validity.is_locally_one_to_one(), "{file} {boundary:?}");
+            assert!(boundary == Boundary::Free || mapped.validity.is_one_to_one(), "{file}");
+        }
+    }
+    let quads = folder.join("quad").join("inspired_mesh_quads_Smooth.off");
+    let s = riemap::io::read(&quads).unwrap().surface;
+    assert_valid(&s, "inspired_mesh_quads_Smooth.off");
+}
