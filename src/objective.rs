@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use crate::constraint::Freedoms;
 use crate::energy::conformal::Dirichlet;
 use crate::energy::{Block, Curvature, Energy, Polynomial};
-use crate::sparse::{Columns, Pattern, Stencils, pairs_of};
+use crate::sparse::{Analysis, Breakdown, Columns, Pattern, Stencils, pairs_of};
 
 /// Energies with their coefficients.
 pub type Terms = Vec<(f64, Box<dyn Energy>)>;
@@ -153,6 +153,20 @@ impl<'a> HessianAssembly<'a> {
     /// The pattern of the lower triangle.
     pub fn columns(&self) -> &Columns {
         &self.columns
+    }
+
+    /// Elimination tree and fill of the pattern: in the order of [`Freedoms::elimination`], or of minimum degree.
+    ///
+    /// # Errors
+    /// [`Breakdown::TooLarge`].
+    pub fn analysis(&self) -> Result<Analysis<'_>, Breakdown> {
+        let freedoms = &self.objective.freedoms;
+        if freedoms.elimination.is_empty() {
+            return Analysis::new(&self.columns);
+        }
+        let unknowns = |&v: &u32| freedoms.offset[v as usize]..freedoms.offset[v as usize + 1];
+        let order: Vec<u32> = freedoms.elimination.iter().flat_map(unknowns).collect();
+        Analysis::permuted(&self.columns, &order)
     }
 
     /// The values of ∇²E(y) on the pattern.

@@ -3,6 +3,11 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use super::{Fixed, Line};
+use crate::quad_graph::QuadGraph;
+use crate::sparse::dissect;
+
+/// Fewer unknowns are eliminated by minimum degree.
+const DISSECTED: usize = 100_000;
 
 /// `x = x(y)` over the reals: of a free vertex both coordinates are unknowns, of one on a line the place along it, of one on the unit
 /// circle its angle, of a held one nothing. Without angles `x = Z y + x0`.
@@ -10,6 +15,8 @@ use super::{Fixed, Line};
 pub struct Freedoms {
     /// Where the unknowns of each vertex begin in y (`nv + 1`).
     pub offset: Vec<u32>,
+    /// The vertices with unknowns in the order in which a factor is to eliminate them; empty: minimum degree.
+    pub elimination: Vec<u32>,
     /// The vertices on lines, ascending.
     lines: Vec<(u32, Line)>,
     /// Held values; 0 elsewhere (`nv`).
@@ -63,7 +70,17 @@ impl Freedoms {
             Sliding { vertex, held }
         });
         let circle = in_order.collect();
-        Freedoms { offset, lines, z0, circle }
+        Freedoms { offset, elimination: Vec::new(), lines, z0, circle }
+    }
+
+    /// [`Freedoms::new`] for a factor of Hessians that couple the vertices of each quad: large ones are eliminated in an order of nested
+    /// dissection ([`dissect`]).
+    pub fn for_factor(graph: &QuadGraph, fixed: &Fixed) -> Self {
+        let mut freedoms = Freedoms::new(graph.vertices, fixed);
+        if freedoms.unknowns() >= DISSECTED {
+            freedoms.elimination = dissect(&graph.quads, &graph.places, |v| freedoms.width(v as usize) > 0);
+        }
+        freedoms
     }
 
     /// Number of real unknowns.

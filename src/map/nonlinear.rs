@@ -324,7 +324,7 @@ impl Problem<'_> {
 
     fn objective(&self) -> Result<Objective, MapError> {
         let Problem { options, graph, .. } = *self;
-        let freedoms = Freedoms::new(graph.vertices, &self.fixed);
+        let freedoms = Freedoms::for_factor(graph, &self.fixed);
         Ok(Objective { terms: self.terms()?, freedoms, norm: Dirichlet::new(graph, options.weight) })
     }
 

@@ -69,15 +69,35 @@ impl<'a> Analysis<'a> {
         order: Order,
         parameters: CholeskySymbolicParams,
     ) -> Result<Self, Breakdown> {
-        let as_given: Vec<u32> = match order {
-            Order::Amd => Vec::new(),
-            Order::AsGiven => (0..columns.size() as u32).collect(),
-        };
-        let ordering = match order {
-            Order::Amd => SymmetricOrdering::Amd,
-            // Not faer's `Identity`, which wants the upper triangle.
-            Order::AsGiven => SymmetricOrdering::Custom(PermRef::new_checked(&as_given, &as_given, columns.size())),
-        };
+        match order {
+            Order::Amd => Analysis::made(columns, SymmetricOrdering::Amd, parameters),
+            Order::AsGiven => {
+                // Not faer's `Identity`, which wants the upper triangle.
+                let same: Vec<u32> = (0..columns.size() as u32).collect();
+                let custom = SymmetricOrdering::Custom(PermRef::new_checked(&same, &same, columns.size()));
+                Analysis::made(columns, custom, parameters)
+            }
+        }
+    }
+
+    /// Analyses a pattern; `order` has the unknowns in the order in which they are eliminated, each once.
+    ///
+    /// # Errors
+    /// [`Breakdown::TooLarge`].
+    pub fn permuted(columns: &'a Columns, order: &[u32]) -> Result<Self, Breakdown> {
+        let mut place = vec![0; order.len()];
+        for (k, &u) in order.iter().enumerate() {
+            place[u as usize] = k as u32;
+        }
+        let custom = SymmetricOrdering::Custom(PermRef::new_checked(order, &place, columns.size()));
+        Analysis::made(columns, custom, Default::default())
+    }
+
+    fn made(
+        columns: &'a Columns,
+        ordering: SymmetricOrdering<'_, u32>,
+        parameters: CholeskySymbolicParams,
+    ) -> Result<Self, Breakdown> {
         let symbolic = factorize_symbolic_cholesky(view(columns), Side::Lower, ordering, parameters)
             .map_err(|_| Breakdown::TooLarge)?;
         Ok(Analysis { columns, symbolic })

@@ -9,7 +9,7 @@ use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::backend::{Observer, Phase};
 use crate::energy::Curvature;
 use crate::objective::{HessianAssembly, Objective};
-use crate::sparse::{Analysis, Breakdown, Cholesky};
+use crate::sparse::{Breakdown, Cholesky};
 
 /// L-BFGS whose first matrix is the Gauss–Newton Hessian at the start, factorised once: an iteration costs one solve.
 pub(super) struct LbfgsPreconditioned;
@@ -46,7 +46,7 @@ impl Minimiser for LbfgsPreconditioned {
         let unknowns = start.len();
         let failed =
             |reason: Breakdown| MinimiseError::Factorisation { backend: "lbfgs-preconditioned", unknowns, reason };
-        let analysis = Analysis::new(assembly.columns()).map_err(failed)?;
+        let analysis = assembly.analysis().map_err(failed)?;
         let factor = analysis.factorise(&values, None).map_err(failed)?;
         watch.phase(Phase::Solve);
         let solver = Preconditioned { factor, pairs: VecDeque::new() };

@@ -47,7 +47,7 @@ impl Minimiser for LevenbergMarquardt {
         let assembly = HessianAssembly::new(objective);
         watch.phase(Phase::Factor);
         let unknowns = start.len();
-        let analysis = Analysis::new(assembly.columns()).map_err(|reason| MinimiseError::Factorisation {
+        let analysis = assembly.analysis().map_err(|reason| MinimiseError::Factorisation {
             backend: self.name(),
             unknowns,
             reason,
@@ -69,6 +69,7 @@ impl Minimiser for LevenbergMarquardt {
             curvature: self.curvature.unwrap_or(Curvature::GaussNewton),
             crawling: 0,
             lambda: if overdetermined { CAUTIOUS } else { BOLD },
+            shrink: if overdetermined { SHRINK } else { NIELSEN },
             growth: 2.0,
             factor: None,
         };
@@ -92,7 +93,12 @@ const LARGEST_DAMPING: f64 = 1e14;
 /// The first λ. Where the energy can vanish bold steps save iterations; where it cannot they may lead past the nearest minimum
 /// to one many times higher.
 const BOLD: f64 = 1e-3;
-const CAUTIOUS: f64 = 1.0;
+const CAUTIOUS: f64 = 0.1;
+
+/// What λ is multiplied by where the model was right: Nielsen's, and for metric energies, whose models are good from the start on,
+/// until a step fails.
+const NIELSEN: f64 = 1.0 / 3.0;
+const SHRINK: f64 = 0.1;
 
 /// The diagonal of B in M: rotations of one colour against the other have no Dirichlet energy. Where a map has to move as a
 /// whole, no more than `DIAGONAL_SUM` of one entry in all: with more, a large map tears at the vertex that is held.
@@ -125,6 +131,8 @@ struct Damped<'a> {
     crawling: usize,
     /// λ, in units in which M has the trace of the Gauss–Newton Hessian.
     lambda: f64,
+    /// What λ is multiplied by at least after a success.
+    shrink: f64,
     /// What λ is multiplied by at the next failure (Nielsen).
     growth: f64,
     factor: Option<Cholesky<'a, f64>>,
@@ -178,10 +186,11 @@ impl Damped<'_> {
     fn fail(&mut self) {
         self.lambda *= self.growth;
         self.growth *= 2.0;
+        self.shrink = NIELSEN;
     }
 
     fn succeed(&mut self, ratio: f64, left: f64) {
-        self.lambda = (self.lambda * (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0)).max(1e-15);
+        self.lambda = (self.lambda * (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(self.shrink, 2.0)).max(1e-15);
         self.growth = 2.0;
         self.crawling = if left > CRAWL { self.crawling + 1 } else { 0 };
         let (patience, other) = match self.curvature {

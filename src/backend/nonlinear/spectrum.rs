@@ -1,7 +1,6 @@
 use super::levenberg_marquardt::add_damping;
 use crate::energy::Curvature;
 use crate::objective::{HessianAssembly, Objective};
-use crate::sparse::Analysis;
 
 /// The smallest singular value σ of the Jacobian J of all residuals (with the coefficients' roots) at y: by inverse
 /// iteration on `JᵀJ`, half the Gauss–Newton Hessian; σ = |Jx| from J itself. The matrix alone would hide what is below 1e-8 of
@@ -18,7 +17,7 @@ pub fn smallest_singular_value(objective: &Objective, y: &[f64]) -> Option<f64> 
         *value *= 0.5;
     }
     let mut shifted = values.clone();
-    let analysis = Analysis::new(columns).ok()?;
+    let analysis = assembly.analysis().ok()?;
     // A shift of a few roundings makes a singular matrix definite; the Rayleigh quotient is of the matrix without it.
     let factor = [0.0, 1e-15, 1e-14, 1e-13, 1e-12].into_iter().find_map(|shift| {
         shifted.clone_from(&values);
