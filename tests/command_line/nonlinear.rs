@@ -171,7 +171,7 @@ fn a_staircase_is_warned_of_and_can_be_kept_in_order() {
         }
     }
     shell.write("m.obj", text);
-    let plain = shell.run(&["map", "m.obj", "--report", "r.json"]);
+    let plain = shell.run(&["map", "m.obj", "--valid", "off", "--report", "r.json"]);
     let report: Value = serde_json::from_str(&shell.read("r.json")).unwrap();
     assert!(number(&report, "/distortion/boundary_out_of_order") > 0.0);
     assert!(
@@ -179,10 +179,15 @@ fn a_staircase_is_warned_of_and_can_be_kept_in_order() {
         "{}",
         plain.err
     );
-    let kept = shell.run(&["map", "m.obj", "--keep-order", "--report", "r.json"]);
+    let kept = shell.run(&["map", "m.obj", "--valid", "off", "--keep-order", "--report", "r.json"]);
     let report: Value = serde_json::from_str(&shell.read("r.json")).unwrap();
     assert_eq!(number(&report, "/distortion/boundary_out_of_order"), 0.0);
     assert!(kept.code == 0 && !kept.err.contains("out of order"), "{}", kept.err);
+    // By default a valid map is in the place of the plain one, and a note says so.
+    let valid = shell.run(&["map", "m.obj", "--report", "r.json"]);
+    let report: Value = serde_json::from_str(&shell.read("r.json")).unwrap();
+    assert!(valid.code == 0 && valid.err.contains("the plain map had"), "{}", valid.err);
+    assert_eq!((&report["solver"]["valid"], &report["solver"]["repaired"]), (&true.into(), &true.into()));
 }
 
 #[test]
