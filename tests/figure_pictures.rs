@@ -100,7 +100,7 @@ fn corner_errors_of_an_affine_map_are_its_own_and_see_angles_that_diagonals_do_n
     assert!(corner_errors(disc, None, &image, &maps)[0] > 1.5);
 }
 
-const FIGURE: &str = "[surface]\nsource = \"graph:cos+cos?n=9\"\n[map]\nweight = \"unit\"\n[figures]\n\
+const FIGURE: &str = "[surface]\nsource = \"graph:cos+cos?n=9\"\n[map]\nenergy = \"H + C\"\nweight = \"unit\"\n[figures]\n\
     checkerboard = { squares = 8, side = 200 }\n";
 
 #[test]
