@@ -131,7 +131,7 @@ fn a_caption_has_the_numbers_of_the_report_and_a_key_that_is_not_there_fails_the
     }
     let path = folder.path().join("wrong.toml");
     fs::write(&path, format!("{FIGURE}caption = \"{{a\"\n")).unwrap();
-    assert!(Config::load(&path, &[]).err().unwrap().to_string().contains("wrong.toml:7"));
+    assert!(Config::load(&path, &[]).err().unwrap().to_string().contains("wrong.toml:8"));
 }
 
 #[test]
