@@ -15,7 +15,7 @@ pub fn markdown(record: &Record) -> String {
          its own with one thread, contestants in turns. *Solve*: from the mesh in memory to the map there, assembly included \
          (of that after the assembly: *factor*, where it is told apart). *Whole*: the process from start to end, reading and \
          writing included; a peer's has the start of Python in it, ours the exact check of the map, its distortion and its writing \
-         as OBJ, where peers write bare numbers. Peers get quads split into triangles. All maps are measured by our code on the \
+         as OBJ, where peers write bare numbers. Peers get quads split into triangles. Our maps are the plain ones (`--valid off`), their folds counted as the peers' are. All maps are measured by our code on the \
          faces of the mesh as it is. *Ours/its*: the solve of our map of the same kind over this one's, processor seconds. Slow \
          contestants are kept from large meshes, and who has taken 15 s on a mesh is not run on it again.\n\n\
          Machine: {}. Versions: {}. Limit: {} s a process.\n\n",
