@@ -33,7 +33,7 @@
 //! | [`io`], [`input`] | mesh files, volumes; surfaces by file or name |
 //! | [`verify`], [`libigl`] | the cotan equivalence, checked against libigl itself |
 //! | [`peer`] | maps of other programs, measured as ours are |
-//! | [`bench`] | speed against other programs |
+//! | [`mod@bench`] | speed against other programs |
 //! | [`experiment`] | configurations, runs, tables, plots |
 //! | [`predicate`] | exact signs of areas |
 //! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |

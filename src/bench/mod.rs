@@ -44,7 +44,7 @@ pub fn contestant(name: &str) -> Option<&'static Contestant> {
     CONTESTANTS.iter().find(|contestant| contestant.name == name)
 }
 
-/// The files that [`write`] always makes.
+/// The files that [`write()`] always makes.
 pub const FILES: [&str; 3] = ["table.md", "bench.csv", "bench.json"];
 
 /// Writes `table.md`, `bench.csv`, `bench.json` and the plots into `folder`, all or none; their paths. Plots of an earlier record

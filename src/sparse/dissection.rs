@@ -19,7 +19,7 @@ const REFINED: usize = 3000;
 /// sets of vertices that the matrix couples.
 ///
 /// The pieces are halved across one axis of space, the one that cuts the fewest vertices; the vertices on the cut, made as
-/// few as can be ([`Band`]), come after all others, and the halves are divided in the same way (A. George, *Nested dissection
+/// few as can be (a maximum flow), come after all others, and the halves are divided in the same way (A. George, *Nested dissection
 /// of a regular finite element mesh*, 1973). On a surface of n vertices cuts have O(√n): fill O(n log n), work O(n^1.5). The
 /// order is one of the elimination tree, children before parents.
 pub fn dissect(pieces: &[[u32; 4]], places: &[[f64; 3]], free: impl Fn(u32) -> bool) -> Vec<u32> {
