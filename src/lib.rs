@@ -35,7 +35,7 @@
 //! | [`peer`] | maps of other programs, measured as ours are |
 //! | [`mod@bench`] | speed against other programs |
 //! | [`experiment`] | configurations, runs, tables, plots |
-//! | [`predicate`] | exact signs of areas |
+//! | [`predicate`], [`median`](mod@median), [`process`] | exact signs of areas; the middle of numbers; processes with a time limit |
 //! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
 //!
 //! # One map
@@ -81,11 +81,13 @@ pub mod interop;
 pub mod io;
 pub mod libigl;
 pub mod map;
+pub mod median;
 pub mod objective;
 pub mod peer;
 pub mod periodic;
 pub mod predicate;
 pub mod problem;
+pub mod process;
 pub mod quad_graph;
 pub mod report;
 pub mod sparse;

@@ -8,11 +8,11 @@ use std::time::Duration;
 use serde_json::Value;
 
 use super::median::medians;
-use super::process::{Ended, watch};
 use super::python::{lacks, last_words, one_thread};
 use super::record::{Measured, Outcome, Quality, Seconds};
 use super::target::Target;
 use super::{BenchError, Contestant, Peers, Program};
+use crate::process::{Bounds, End, Ended, watch};
 
 /// What holds for all contests.
 pub(super) struct Rules<'a> {
@@ -103,14 +103,15 @@ fn once(contestant: &Contestant, target: &Target, rules: &Rules) -> Result<Run, 
     }
     // In a folder without anything that a program might take for its own.
     command.current_dir(rules.folder);
-    let ended =
-        watch(&mut command, rules.limit).map_err(BenchError::io(format!("{} cannot be run", contestant.name)))?;
-    match ended.status {
-        None => return Ok(Run::Stopped { spent: ended.cpu }),
-        Some(status) if !status.success() => {
+    // A terminal's Ctrl-C reaches the contestant, too.
+    let bounds = Bounds { limit: rules.limit, stop: &|| false, with_its_own: false };
+    let ended = watch(&mut command, &bounds).map_err(BenchError::io(format!("{} cannot be run", contestant.name)))?;
+    match ended.end {
+        End::OverTime | End::Stopped => return Ok(Run::Stopped { spent: ended.cpu }),
+        End::Itself(status) if !status.success() => {
             return Ok(Run::Failed(format!("{status}: {}", last_words(&ended.stderr))));
         }
-        Some(_) => {}
+        End::Itself(_) => {}
     }
     let lost = || Run::Failed("it ended well and left no map".to_owned());
     Ok(match contestant.program {

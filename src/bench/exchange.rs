@@ -5,10 +5,10 @@ use std::io::Write;
 use std::path::Path;
 
 use super::BenchError;
-use super::median::median;
 use super::record::Exchange;
 use crate::input::Input;
 use crate::io::{self, Uv};
+use crate::median::median;
 use crate::stopwatch::cpu_seconds;
 use crate::surface::Surface;
 

@@ -4,7 +4,6 @@
 //! |---|---|
 //! | `case.rs` | the meshes and the contestants: two tables |
 //! | `run.rs`, `contest.rs` | all meshes one after the other; on each, everyone in turns |
-//! | `process.rs` | one process, measured and stopped where it takes too long |
 //! | `python.rs`, `peers.py` | the interpreter with the peers, and what it runs |
 //! | `target.rs` | the mesh as files, and the measure of what comes back |
 //! | `exchange.rs` | the speed of reading and writing |
@@ -18,7 +17,6 @@ mod contest;
 mod error;
 mod exchange;
 mod median;
-mod process;
 mod python;
 mod record;
 mod run;
@@ -31,7 +29,7 @@ pub use bar::{Verdict, verdicts};
 pub use case::{CASES, CONTESTANTS, Case, Contestant, Kind, Package, Program, Source, case};
 pub use chart::plots;
 pub use error::BenchError;
-pub use median::{median, medians};
+pub use median::medians;
 pub use python::Peers;
 pub use record::{Entry, Exchange, Measured, Outcome, Quality, Record, Seconds};
 pub use run::{Event, Plan, chosen, run};

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use super::{BenchError, Contestant, Program};
-use crate::libigl::{Environment, Settings, program};
+use crate::libigl::{self, Environment, Settings, program};
 
 const SCRIPT: &str = include_str!("peers.py");
 
@@ -82,7 +82,7 @@ impl Peers {
 
     fn found(python: PathBuf, isolated: bool) -> Result<Peers, BenchError> {
         let mut peers = Peers { python, isolated, versions: BTreeMap::new() };
-        let output = peers.command(&["versions"]).stdin(Stdio::null()).output();
+        let output = peers.command(&["versions"]).output();
         let refuse = |reason: String| BenchError::Python { python: peers.python.clone(), reason };
         let output = output.map_err(|error| refuse(error.to_string()))?;
         let said = String::from_utf8_lossy(&output.stdout);
@@ -97,10 +97,9 @@ impl Peers {
     }
 
     fn install(&self, arguments: &[&str]) -> Result<(), String> {
-        let mut pip = Command::new(&self.python);
-        pip.args(["-I", "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input"])
-            .args(arguments);
-        let output = pip.stdin(Stdio::null()).output().map_err(|error| error.to_string())?;
+        let mut pip = libigl::command(&self.python, true);
+        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input"]).args(arguments);
+        let output = pip.output().map_err(|error| error.to_string())?;
         match output.status.success() {
             true => Ok(()),
             false => Err(last_words(&String::from_utf8_lossy(&output.stderr))),
@@ -109,10 +108,7 @@ impl Peers {
 
     /// `peers.py` with these arguments.
     pub fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(&self.python);
-        if self.isolated {
-            command.arg("-I");
-        }
+        let mut command = libigl::command(&self.python, self.isolated);
         command.args(["-c", SCRIPT]).args(arguments);
         one_thread(&mut command);
         command

@@ -16,24 +16,11 @@ use super::{
 const MOST_RUNS: usize = 10_000;
 /// Longest name of a run's file, without extension.
 const LONGEST_NAME: usize = 100;
-/// The top-level keys of every config.
-const HEAD: [&str; 15] = [
-    "title",
-    "claim",
-    "kind",
-    "alone",
-    "folder",
-    "time-limit",
-    "may-fail",
-    "sweep",
-    "full",
-    "without",
-    "expect",
-    "table",
-    "groups",
-    "plots",
-    "sheet",
-];
+/// The top-level keys of every config that a single run has, too.
+const HEAD: [&str; 4] = ["title", "claim", "kind", "expect"];
+/// Those that are of all its runs together.
+const OF_THE_WHOLE: [&str; 11] =
+    ["alone", "folder", "time-limit", "may-fail", "sweep", "full", "without", "table", "groups", "plots", "sheet"];
 
 /// A column of an experiment's table.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -143,7 +130,7 @@ impl Config {
         let known: Vec<&str> = KINDS.iter().map(|kind| kind.name()).collect();
         document.check_name("kind", "kind of experiment", &kind_name, &known)?;
         let kind = *KINDS.iter().find(|kind| kind.name() == kind_name).unwrap_or(&KINDS[0]);
-        document.check_keys(&[&HEAD[..], kind.tables()].concat())?;
+        document.check_keys(&[&HEAD[..], &OF_THE_WHOLE, kind.tables()].concat())?;
         let columns = match document.optional::<Table>("table")? {
             Some(table) => table.columns,
             None => kind.columns().iter().map(|(key, label)| Column::new(key, label)).collect(),
@@ -185,20 +172,7 @@ impl Config {
                 return Err(document.wrong_plot(name, reason));
             }
         }
-        let of_the_whole = [
-            "alone",
-            "folder",
-            "time-limit",
-            "may-fail",
-            "sweep",
-            "full",
-            "without",
-            "table",
-            "groups",
-            "plots",
-            "sheet",
-        ];
-        for key in of_the_whole {
+        for key in OF_THE_WHOLE {
             document.remove(key);
         }
         let runs = sweep.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.values.len()));

@@ -3,6 +3,7 @@ use serde_json::Value;
 
 use super::grid::{Grid, number};
 use super::{Config, Outcome, Record};
+use crate::median::median;
 
 /// `[groups]`: a table with a row for each value of some keys, which sums up the runs that have it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -47,14 +48,12 @@ impl Take {
             let count = values.iter().filter(|value| **value == Value::Bool(true)).count();
             return format!("{count} of {}", records.len());
         }
-        let mut numbers: Vec<f64> = values.iter().filter_map(Value::as_f64).collect();
-        numbers.sort_by(f64::total_cmp);
-        let n = numbers.len();
+        let numbers: Vec<f64> = values.iter().filter_map(Value::as_f64).collect();
+        let mean = |numbers: Vec<f64>| numbers.iter().sum::<f64>() / numbers.len() as f64;
         let taken = match self {
-            _ if n == 0 => None,
-            Take::Mean => Some(numbers.iter().sum::<f64>() / n as f64),
-            Take::Median => Some(0.5 * (numbers[(n - 1) / 2] + numbers[n / 2])),
-            Take::Max | Take::Count => numbers.last().copied(),
+            Take::Mean => Some(mean(numbers)).filter(|mean| mean.is_finite()),
+            Take::Median => median(numbers),
+            Take::Max | Take::Count => numbers.into_iter().max_by(f64::total_cmp),
         };
         taken.map_or_else(|| "–".to_owned(), |x| number(&x.into()))
     }

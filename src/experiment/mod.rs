@@ -12,7 +12,7 @@
 //! | `expect.rs`, `without.rs`, `folder.rs` | bounds on results; runs that are not made; meshes of a folder |
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
 //! | `run.rs`, `stale.rs` | one run → its record and pictures in a folder; those of runs that are no more |
-//! | `batch.rs`, `pool.rs`, `apart.rs`, `journal.rs` | [`Batch`]: runs in parallel, or in processes of their own; going on after an interruption |
+//! | `batch.rs`, `pool.rs`, `journal.rs` | [`Batch`]: runs in parallel, or in processes of their own; going on after an interruption |
 //! | `page/` | everything → `index.html` |
 //! | `summary.rs`, `grid.rs`, `groups.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs`, `panels.rs` | exponents fitted to the series of plots; plots beside each other |
@@ -25,7 +25,6 @@
 //!
 //! Everything but `timings` and `versions` of a record is the same on every run of the same program, bit for bit.
 
-mod apart;
 mod batch;
 mod caption;
 mod chart;

@@ -5,15 +5,15 @@ use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use super::apart::{End, apart};
 use super::repository::revision;
 use super::{Config, Outcome, Picture, Record, ResultsError, Run, RunError, Yield};
 use crate::figure::Format;
 use crate::io::atomically;
+use crate::process::{Bounds, End, watch};
 
 /// A run that has ended; nothing is written yet.
 pub(super) struct Ended {
@@ -57,20 +57,24 @@ pub(super) fn make_apart(
     config: &Config,
     run: &Run,
     versions: &BTreeMap<String, String>,
-    (limit, command): (f64, Command),
+    (limit, mut command): (f64, Command),
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<Ended>, ResultsError> {
-    let begun = Instant::now();
-    let end = apart(command, limit, stop).map_err(ResultsError::Process)?;
-    let seconds = begun.elapsed().as_secs_f64();
-    let error = match end {
+    let bounds =
+        Bounds { limit: Duration::try_from_secs_f64(limit).unwrap_or(Duration::MAX), stop, with_its_own: true };
+    let process = watch(&mut command, &bounds).map_err(ResultsError::Process)?;
+    let seconds = process.wall;
+    let left = match process.end {
         End::Stopped => return Ok(None),
-        End::Well => match stored(results, config, run) {
-            Some(record) => return Ok(Some(Ended { record, pictures: Vec::new(), seconds })),
-            None => RunError::Process { status: "exit status: 0".to_owned(), said: String::new() },
-        },
-        End::OverTime => RunError::OverTime { seconds: limit },
-        End::Otherwise(status, said) => RunError::Process { status: status.to_string(), said },
+        End::OverTime => Err(RunError::OverTime { seconds: limit }),
+        End::Itself(status) => stored(results, config, run).filter(|_| status.success()).ok_or_else(|| {
+            let said = process.stderr.trim().lines().last().unwrap_or_default().to_owned();
+            RunError::Process { status: status.to_string(), said }
+        }),
+    };
+    let error = match left {
+        Ok(record) => return Ok(Some(Ended { record, pictures: Vec::new(), seconds })),
+        Err(error) => error,
     };
     let (mut record, pictures) = record(config, run, Err(error));
     record.versions.extend(versions.clone());

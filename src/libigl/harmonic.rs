@@ -39,12 +39,7 @@ pub fn harmonic(
     values: &[[f64; 2]],
 ) -> Result<Harmonic, LibiglError> {
     check(positions, triangles, fixed, values)?;
-    let arrays = [
-        Array { name: "positions", columns: 3, numbers: Numbers::Real(positions.as_flattened()) },
-        Array { name: "triangles", columns: 3, numbers: Numbers::Index(triangles.as_flattened()) },
-        Array { name: "fixed", columns: 1, numbers: Numbers::Index(fixed) },
-        Array { name: "values", columns: 2, numbers: Numbers::Real(values.as_flattened()) },
-    ];
+    let arrays = arrays(positions, triangles, fixed, values);
     let answer = call(environment, "harmonic", &arrays, json!({ "zero_weight": ZERO_WEIGHT }))?;
     let uv = answer.rows("uv", positions.len())?;
     finite("libigl's result at vertex", &uv)?;
@@ -56,6 +51,21 @@ pub fn harmonic(
         negative_weights: answer.count("negative_weights")?,
         version: environment.versions.libigl.clone(),
     })
+}
+
+/// The arrays of a request for a map of a mesh of which some vertices are given places.
+pub(super) fn arrays<'a>(
+    positions: &'a [[f64; 3]],
+    triangles: &'a [[u32; 3]],
+    fixed: &'a [u32],
+    values: &'a [[f64; 2]],
+) -> [Array<'a>; 4] {
+    [
+        Array { name: "positions", columns: 3, numbers: Numbers::Real(positions.as_flattened()) },
+        Array { name: "triangles", columns: 3, numbers: Numbers::Index(triangles.as_flattened()) },
+        Array { name: "fixed", columns: 1, numbers: Numbers::Index(fixed) },
+        Array { name: "values", columns: 2, numbers: Numbers::Real(values.as_flattened()) },
+    ]
 }
 
 pub(super) fn check(

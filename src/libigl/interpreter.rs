@@ -96,7 +96,7 @@ fn new_enough(version: &str) -> bool {
 
 /// `python` with no input. Isolated: `PYTHONPATH`, the user's packages and the current folder are not looked at, which
 /// a made environment must not see and an interpreter of the user's own may need.
-pub(super) fn command(python: &Path, isolated: bool) -> Command {
+pub(crate) fn command(python: &Path, isolated: bool) -> Command {
     let mut command = Command::new(python);
     command.stdin(Stdio::null());
     if isolated {

@@ -1,5 +1,5 @@
-use super::exchange::{Array, Numbers, call};
-use super::harmonic::{check, finite};
+use super::exchange::call;
+use super::harmonic::{arrays, check, finite};
 use super::{Environment, LibiglError};
 use serde_json::json;
 
@@ -33,12 +33,7 @@ pub fn lscm(
     if fixed.len() < 2 {
         return Err(LibiglError::TooFewFixed { fixed: fixed.len() });
     }
-    let arrays = [
-        Array { name: "positions", columns: 3, numbers: Numbers::Real(positions.as_flattened()) },
-        Array { name: "triangles", columns: 3, numbers: Numbers::Index(triangles.as_flattened()) },
-        Array { name: "fixed", columns: 1, numbers: Numbers::Index(fixed) },
-        Array { name: "values", columns: 2, numbers: Numbers::Real(values.as_flattened()) },
-    ];
+    let arrays = arrays(positions, triangles, fixed, values);
     let answer = call(environment, "lscm", &arrays, json!({}))?;
     let uv = answer.rows("uv", positions.len())?;
     finite("libigl's result at vertex", &uv)?;

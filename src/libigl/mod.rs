@@ -27,6 +27,7 @@ pub use environment::{Environment, VERSION};
 pub use error::LibiglError;
 pub use harmonic::{Harmonic, harmonic};
 pub use interpreter::Versions;
+pub(crate) use interpreter::command;
 pub use lscm::{Lscm, lscm};
 pub use settings::Settings;
 pub(crate) use settings::program;

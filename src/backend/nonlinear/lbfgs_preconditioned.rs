@@ -9,7 +9,7 @@ use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::backend::{Observer, Phase};
 use crate::energy::Curvature;
 use crate::objective::{HessianAssembly, Objective};
-use crate::sparse::{Breakdown, Cholesky};
+use crate::sparse::Cholesky;
 
 /// L-BFGS whose first matrix is the Gauss–Newton Hessian at the start, factorised once: an iteration costs one solve.
 pub(super) struct LbfgsPreconditioned;
@@ -43,11 +43,9 @@ impl Minimiser for LbfgsPreconditioned {
         let mut values = assembly.values(&start, Curvature::GaussNewton);
         add_damping(assembly.columns(), &mut values, DAMPING);
         watch.phase(Phase::Factor);
-        let unknowns = start.len();
-        let failed =
-            |reason: Breakdown| MinimiseError::Factorisation { backend: "lbfgs-preconditioned", unknowns, reason };
-        let analysis = assembly.analysis().map_err(failed)?;
-        let factor = analysis.factorise(&values, None).map_err(failed)?;
+        let failed = MinimiseError::factorisation(self, start.len());
+        let analysis = assembly.analysis().map_err(&failed)?;
+        let factor = analysis.factorise(&values, None).map_err(&failed)?;
         watch.phase(Phase::Solve);
         let solver = Preconditioned { factor, pairs: VecDeque::new() };
         run(self.name(), solver, objective, start, rule, Limits::FIRST_ORDER, watch)

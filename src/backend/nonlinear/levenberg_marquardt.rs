@@ -47,11 +47,7 @@ impl Minimiser for LevenbergMarquardt {
         let assembly = HessianAssembly::new(objective);
         watch.phase(Phase::Factor);
         let unknowns = start.len();
-        let analysis = assembly.analysis().map_err(|reason| MinimiseError::Factorisation {
-            backend: self.name(),
-            unknowns,
-            reason,
-        })?;
+        let analysis = assembly.analysis().map_err(MinimiseError::factorisation(self, unknowns))?;
         watch.phase(Phase::Solve);
         let overdetermined = objective.is_overdetermined();
         let solver = Damped {

@@ -15,6 +15,7 @@ pub use spectrum::smallest_singular_value;
 
 use super::Observer;
 use crate::objective::Objective;
+use crate::sparse::Breakdown;
 
 /// A solver of nonlinear problems.
 pub trait Minimiser: Sync {
@@ -124,6 +125,14 @@ impl Minimum {
     }
 }
 
+impl MinimiseError {
+    /// What `backend` says of a Hessian of so many unknowns that has no factor.
+    fn factorisation(backend: &dyn Minimiser, unknowns: usize) -> impl Fn(Breakdown) -> MinimiseError + use<> {
+        let backend = backend.name();
+        move |reason| MinimiseError::Factorisation { backend, unknowns, reason }
+    }
+}
+
 /// A minimisation could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MinimiseError {
@@ -138,7 +147,7 @@ pub enum MinimiseError {
         /// Real unknowns.
         unknowns: usize,
         /// Why.
-        reason: crate::sparse::Breakdown,
+        reason: Breakdown,
     },
     /// An error of argmin's own.
     #[error("backend `{backend}` failed: {message}")]

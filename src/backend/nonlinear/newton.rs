@@ -60,9 +60,7 @@ impl Minimiser for Newton {
         watch.phase(Phase::Assemble);
         let assembly = HessianAssembly::new(objective);
         watch.phase(Phase::Factor);
-        let unknowns = start.len();
-        let failed = |reason: Breakdown| MinimiseError::Factorisation { backend: "newton", unknowns, reason };
-        let analysis = Analysis::new(assembly.columns()).map_err(failed)?;
+        let analysis = assembly.analysis().map_err(MinimiseError::factorisation(self, start.len()))?;
         watch.phase(Phase::Solve);
         let solver = Backtracking {
             objective,
