@@ -108,7 +108,7 @@ impl Display {
         };
         *counter += 1;
         let Some(error) = &record.error else { return word.to_owned() };
-        if !(config.may_fail && record.outcome == Outcome::Failed) {
+        if !(run.may_fail(config) && record.outcome == Outcome::Failed) {
             self.unexpected += 1;
             self.complaints.push(format!("{}: {}: {error}", name(config, run), word.to_lowercase()));
         }

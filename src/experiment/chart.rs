@@ -1,11 +1,9 @@
-use std::collections::BTreeMap;
-
 use serde::Deserialize;
 use serde_json::Value;
 
 use super::grid::number;
 use super::panels::above_lowest;
-use super::{FitSpec, Fitted, PanelSpec, Record};
+use super::{FitSpec, Fitted, PanelSpec, Record, Selection};
 use crate::figure::{Axis, Panels, Plot, Reference, Series};
 
 /// `[plots.NAME]`: a plot over the runs of an experiment.
@@ -23,7 +21,7 @@ pub struct PlotSpec {
     pub series: Vec<SeriesSpec>,
     /// Runs whose value at a dotted key is another are left out; of a list, any will do.
     #[serde(default)]
-    pub only: BTreeMap<String, Value>,
+    pub only: Selection,
     /// Dashed lines to compare slopes with.
     #[serde(default)]
     pub reference: Vec<ReferenceSpec>,
@@ -61,7 +59,7 @@ pub struct SeriesSpec {
     pub label: String,
     /// As that of the plot, for this series alone.
     #[serde(default)]
-    pub only: BTreeMap<String, Value>,
+    pub only: Selection,
     /// Whether its points are not joined.
     #[serde(default)]
     pub cloud: bool,
@@ -84,8 +82,8 @@ pub struct ReferenceSpec {
 impl PlotSpec {
     /// Every dotted key that the plot reads.
     pub fn keys(&self) -> impl Iterator<Item = &String> {
-        let series = self.series.iter().flat_map(|s| std::iter::once(&s.y).chain(&s.by).chain(s.only.keys()));
-        self.x.key.iter().chain(series).chain(self.only.keys()).chain(self.panels.keys())
+        let series = self.series.iter().flat_map(|s| std::iter::once(&s.y).chain(&s.by).chain(s.only.0.keys()));
+        self.x.key.iter().chain(series).chain(self.only.0.keys()).chain(self.panels.keys())
     }
 
     /// Whether it shows times, which differ from run to run.
@@ -148,7 +146,7 @@ impl PlotSpec {
     }
 
     fn kept<'a>(&self, records: &'a [Record]) -> Vec<&'a Record> {
-        records.iter().filter(|record| chosen(&self.only, record)).collect()
+        records.iter().filter(|record| self.only.holds(|key| record.get(key))).collect()
     }
 
     /// The series without their exponents in the label, and these.
@@ -165,7 +163,7 @@ impl PlotSpec {
 
     fn series(&self, spec: &SeriesSpec, records: &[&Record]) -> Vec<Series> {
         let mut series: Vec<Series> = Vec::new();
-        for record in records.iter().filter(|record| chosen(&spec.only, record)) {
+        for record in records.iter().filter(|record| spec.only.holds(|key| record.get(key))) {
             let by = spec.by.as_ref().and_then(|key| record.get(key));
             let label = spec.label.replace("{}", &by.as_ref().map(number).unwrap_or_default());
             let x = self.x.key.as_ref().and_then(|key| record.get(key));
@@ -202,22 +200,4 @@ fn lowered(series: &mut [Series]) -> String {
 
 fn point((x, y): (&Value, &Value)) -> Option<[f64; 2]> {
     Some([x.as_f64()?, y.as_f64()?])
-}
-
-/// Whether a run has these values.
-fn chosen(only: &BTreeMap<String, Value>, record: &Record) -> bool {
-    only.iter().all(|(key, wanted)| record.get(key).is_some_and(|value| matches(&value, wanted)))
-}
-
-/// Whether `value` is the wanted one, or one of a list of these.
-pub(super) fn matches(value: &Value, wanted: &Value) -> bool {
-    match wanted {
-        Value::Array(any) => any.iter().any(|wanted| same(value, wanted)),
-        _ => same(value, wanted),
-    }
-}
-
-/// 33 and 33.0 are the same.
-fn same(a: &Value, b: &Value) -> bool {
-    a == b || (a.is_number() && a.as_f64() == b.as_f64())
 }

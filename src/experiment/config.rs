@@ -7,9 +7,11 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::document::{Axis, Document, Sources};
+use super::expect;
 use super::folder::sweep_over_folder;
 use super::{
-    Bound, ConfigError, DataFile, GroupSpec, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task, Without, convergence,
+    Bounds, ConfigError, DataFile, Expectation, GroupSpec, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task, Without,
+    convergence,
 };
 
 /// More runs than these in one config are taken for a mistake.
@@ -17,7 +19,7 @@ const MOST_RUNS: usize = 10_000;
 /// Longest name of a run's file, without extension.
 const LONGEST_NAME: usize = 100;
 /// The top-level keys of every config that a single run has, too.
-const HEAD: [&str; 4] = ["title", "claim", "kind", "expect"];
+const HEAD: [&str; 5] = ["title", "claim", "kind", "expect", "expect-where"];
 /// Those that are of all its runs together.
 const OF_THE_WHOLE: [&str; 11] =
     ["alone", "folder", "time-limit", "may-fail", "sweep", "full", "without", "table", "groups", "plots", "sheet"];
@@ -59,7 +61,7 @@ pub struct Run {
     /// The config as resolved.
     pub config: Value,
     /// What the claim says of the result, by dotted key.
-    pub expect: BTreeMap<String, Bound>,
+    pub expect: Bounds,
     /// The public file that it needs.
     pub data: Option<DataFile>,
     /// What is to be done.
@@ -83,7 +85,7 @@ pub struct Config {
     /// Seconds after which a run is ended; each is then made in a process of its own, where [`Batch::apart`](super::Batch::apart) says
     /// how.
     pub time_limit: Option<f64>,
-    /// Whether it is a result, too, that a run fails.
+    /// Whether it is a result, too, that a run fails of which nothing is claimed.
     pub may_fail: bool,
     /// The runs to be made: the last swept key varies fastest.
     pub runs: Vec<Run>,
@@ -161,10 +163,12 @@ impl Config {
         for (name, plot) in convergence::plots(&document, &words.collect::<Vec<_>>())? {
             config.plots.entry(name).or_insert(plot);
         }
-        for without in &config.without {
-            let unknown = without.runs.keys().find(|key| !config.swept.contains(key) && !set.contains(*key));
+        let expectations: Vec<Expectation> = document.optional("expect-where")?.unwrap_or_default();
+        let selections = config.without.iter().map(|without| ("without", &without.runs));
+        for (table, runs) in selections.chain(expectations.iter().map(|e| ("expect-where", &e.runs))) {
+            let unknown = runs.0.keys().find(|key| !config.swept.contains(key) && !set.contains(*key));
             if let Some(key) = unknown {
-                return Err(document.not_swept(key, &config.swept));
+                return Err(document.not_swept(table, key, &config.swept));
             }
         }
         for (name, plot) in &config.plots {
@@ -186,7 +190,7 @@ impl Config {
                 document.assign(&key.split('.').collect::<Vec<_>>(), (*value).clone())?;
             }
             let run = run(kind, position, document, &config.swept, &mut names)?;
-            match config.without.iter().any(|without| without.holds(&run.config)) {
+            match config.without.iter().any(|without| without.runs.holds_config(&run.config)) {
                 true => {}
                 false if full || !point.full => config.runs.push(run),
                 false => config.more.push(run),
@@ -208,6 +212,13 @@ impl Config {
     }
 }
 
+impl Run {
+    /// Whether it is no wonder if the run fails: where nothing is claimed of it in an experiment whose runs may.
+    pub fn may_fail(&self, config: &Config) -> bool {
+        config.may_fail && self.expect.is_empty()
+    }
+}
+
 impl Column {
     fn new(key: &str, label: &str) -> Self {
         Column { key: key.to_owned(), label: label.to_owned() }
@@ -221,11 +232,14 @@ fn run(
     swept: &[String],
     names: &mut HashSet<String>,
 ) -> Result<Run, ConfigError> {
-    let expect = document.optional("expect")?.unwrap_or_default();
+    let of_all: Bounds = document.optional("expect")?.unwrap_or_default();
+    let of_some: Vec<Expectation> = document.optional("expect-where")?.unwrap_or_default();
     let task = kind.task(&document)?;
     document.remove("title");
     document.remove("claim");
-    let config = document.to_json()?;
+    let mut config = document.to_json()?;
+    let of_some = expect::resolve(&mut config, of_some);
+    let expect = of_all.into_iter().chain(of_some).collect();
     let base = run_name(&config, swept);
     let numbered = (2..).map(|i| format!("{base}-{i}"));
     let name = std::iter::once(base.clone()).chain(numbered).find(|name| !names.contains(name)).unwrap_or(base);

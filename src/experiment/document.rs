@@ -165,9 +165,9 @@ impl<'a> Document<'a> {
     }
 
     /// The error of a key in `[[without]]` that is not swept over.
-    pub(super) fn not_swept(&self, key: &str, swept: &[String]) -> ConfigError {
-        let place = self.sources.place(self.root.get_ref().get("without").map_or(0..0, Spanned::span));
-        ConfigError::NotSwept { place, table: "[[without]]", key: key.to_owned(), known: swept.join(", ") }
+    pub(super) fn not_swept(&self, table: &str, key: &str, swept: &[String]) -> ConfigError {
+        let place = self.sources.place(self.root.get_ref().get(table).map_or(0..0, Spanned::span));
+        ConfigError::NotSwept { place, table: format!("[[{table}]]"), key: key.to_owned(), known: swept.join(", ") }
     }
 
     /// `time-limit`, in seconds.
@@ -187,7 +187,7 @@ impl<'a> Document<'a> {
                 let known: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
                 let known = if known.is_empty() { "nothing".to_owned() } else { known.join(", ") };
                 let place = self.sources.place(more.span);
-                return Err(ConfigError::NotSwept { place, table: "[full]", key: more.key, known });
+                return Err(ConfigError::NotSwept { place, table: "[full]".to_owned(), key: more.key, known });
             };
             axis.values.extend(more.values);
         }

@@ -133,7 +133,7 @@ pub enum ConfigError {
         /// Where.
         place: Box<Place>,
         /// Whose key it is.
-        table: &'static str,
+        table: String,
         /// The dotted key.
         key: String,
         /// The swept keys.

@@ -1,5 +1,38 @@
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use serde_json::Value;
+
+use super::Selection;
+
+/// `[expect]`: what the claim says of every result, by dotted key.
+pub type Bounds = BTreeMap<String, Bound>;
+
+/// `[[expect-where]]`: what the claim says of the results of some runs, in place of what `[expect]` says of the same keys.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expectation {
+    /// By swept keys.
+    pub runs: Selection,
+    /// By dotted key of the record.
+    pub bounds: Bounds,
+}
+
+/// Puts what `[[expect-where]]` says of this run into `expect` of its resolved config; the bounds.
+pub(super) fn resolve(config: &mut Value, expectations: Vec<Expectation>) -> Bounds {
+    let chosen: Vec<bool> = expectations.iter().map(|some| some.runs.holds_config(config)).collect();
+    let written = config.as_object_mut().and_then(|config| config.remove("expect-where"));
+    let written = written.iter().filter_map(Value::as_array).flatten().zip(&chosen);
+    for bounds in written.filter(|(_, chosen)| **chosen).filter_map(|(some, _)| some["bounds"].as_object()) {
+        if config.get("expect").is_none() {
+            config["expect"] = Value::Object(Default::default());
+        }
+        if let Some(all) = config["expect"].as_object_mut() {
+            all.extend(bounds.clone());
+        }
+    }
+    expectations.into_iter().zip(chosen).filter(|(_, chosen)| *chosen).flat_map(|(some, _)| some.bounds).collect()
+}
 
 /// What a claim says of one number or word of the result.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

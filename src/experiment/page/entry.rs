@@ -80,11 +80,19 @@ impl<'a> Entry<'a> {
         self.records.iter().filter(|record| record.outcome == outcome).count()
     }
 
+    /// Whether a run has failed that must not.
+    fn has_failed(&self) -> bool {
+        let mut failed = self.records.iter().filter(|record| record.outcome == Outcome::Failed);
+        let runs = self.config.all_runs();
+        let run = |record: &Record| runs.iter().find(|run| run.name == record.run);
+        failed.any(|record| !run(record).is_some_and(|run| run.may_fail(self.config)))
+    }
+
     pub(super) fn verdict(&self) -> Verdict {
         match () {
             () if self.records.is_empty() => Verdict::NotMade,
             () if self.count(Outcome::Refuted) > 0 => Verdict::Refuted,
-            () if self.count(Outcome::Failed) > 0 && !self.config.may_fail => Verdict::Failed,
+            () if self.has_failed() => Verdict::Failed,
             () if self.missing > 0 => Verdict::Incomplete,
             () if self.config.all_runs().iter().all(|run| run.expect.is_empty()) => Verdict::Unbounded,
             () => Verdict::Holds,
