@@ -7,6 +7,7 @@
 mod entry;
 mod highlight;
 mod html;
+mod speed;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -81,13 +82,15 @@ pub fn page(configs: &[Config], results: &Path) -> String {
         .filter(|(_, members)| !members.is_empty())
         .collect();
     let mut text = head(&entries);
-    contents(&mut text, &parts);
+    let speed = speed::part(results);
+    contents(&mut text, &parts, speed.is_some());
     text.push_str("<main>\n");
     for (part, members) in &parts {
         let Part { id, heading, about, .. } = part;
         let _ = writeln!(text, "<h2 id=\"{id}\">{heading}</h2>\n<p class=\"about\">{about}</p>");
         members.iter().for_each(|entry| text.push_str(&entry.section(results)));
     }
+    text.push_str(&speed.unwrap_or_default());
     text.push_str("</main>\n");
     text.push_str(&foot(&entries));
     text.push_str("</body>\n</html>\n");
@@ -122,7 +125,7 @@ fn head(entries: &[Entry]) -> String {
     text
 }
 
-fn contents(text: &mut String, parts: &[(&Part, Vec<&Entry>)]) {
+fn contents(text: &mut String, parts: &[(&Part, Vec<&Entry>)], speed: bool) {
     text.push_str("<nav aria-label=\"Contents\">\n");
     for (Part { id, heading, .. }, members) in parts {
         let _ = writeln!(text, "<div class=\"part\">\n<p><a href=\"#{id}\">{heading}</a></p>\n<ol>");
@@ -132,6 +135,10 @@ fn contents(text: &mut String, parts: &[(&Part, Vec<&Entry>)]) {
             let _ = writeln!(text, "<li><a href=\"#{name}\">{title}</a> <code>{name}</code> {verdict}</li>");
         }
         text.push_str("</ol>\n</div>\n");
+    }
+    if speed {
+        let _ =
+            writeln!(text, "<div class=\"part\">\n<p><a href=\"#{}\">{}</a></p>\n</div>", speed::ID, speed::HEADING);
     }
     text.push_str("</nav>\n");
 }
