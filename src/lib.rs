@@ -35,7 +35,7 @@
 //! | [`peer`] | maps of other programs, measured as ours are |
 //! | [`mod@bench`] | speed against other programs |
 //! | [`experiment`] | configurations, runs, tables, plots |
-//! | [`predicate`], [`median`](mod@median), [`process`] | exact signs of areas; the middle of numbers; processes with a time limit |
+//! | [`predicate`], [`polygon`], [`median`](mod@median), [`process`] | exact signs of areas; whether a polygon is simple; the middle of numbers; processes with a time limit |
 //! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
 //!
 //! # One map
@@ -85,6 +85,7 @@ pub mod median;
 pub mod objective;
 pub mod peer;
 pub mod periodic;
+pub mod polygon;
 pub mod predicate;
 pub mod problem;
 pub mod process;

@@ -1,13 +1,12 @@
 //! How far a map is from being conformal, from preserving area and length, and from being one-to-one.
 
-mod boundary;
 mod corner;
 mod image;
 mod singular;
 mod validity;
 
+pub use crate::polygon::{boundary_crossing, out_of_order};
 pub use crate::predicate::orientation;
-pub use boundary::{boundary_crossing, out_of_order};
 pub use corner::corner_errors;
 pub use image::Image;
 pub use singular::{FaceMap, face_maps};

@@ -1,6 +1,6 @@
 use num_complex::Complex64;
 
-use super::boundary::boundary_crossing;
+use crate::polygon::boundary_crossing;
 use crate::predicate::orientation;
 use crate::surface::disc::Disc;
 use crate::surface::edges::{Edges, next_in};

@@ -1,4 +1,4 @@
-//! Whether a polygon is simple, by a sweep with exact predicates.
+//! Closed polygons, as the boundary of a map is one: whether they are simple, by a sweep with exact predicates; whether they go round in order.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
