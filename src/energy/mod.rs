@@ -6,6 +6,7 @@
 
 mod authalic;
 mod circle;
+mod clearance;
 pub mod conformal;
 mod error;
 mod expression;
@@ -13,6 +14,8 @@ mod gaps;
 mod metric;
 mod mips;
 mod order;
+mod overlap;
+mod point_edge;
 mod polynomial;
 mod square_sum;
 mod symmetric_dirichlet;
@@ -20,6 +23,7 @@ mod triangle_sum;
 
 pub use authalic::Authalic;
 pub use circle::Circle;
+pub use clearance::Clearance;
 pub use conformal::Conformal;
 pub use error::EnergyError;
 pub use expression::{Expression, ExpressionError, Term};
