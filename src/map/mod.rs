@@ -225,7 +225,7 @@ impl MapOptions {
             (true, _) => Err(MapError::FreeBoundary),
             (false, _) => {
                 let plain = nonlinear::minimise(self, &expression, domain, exact, watch);
-                match valid::is_promised(self) {
+                match self.promises_valid() {
                     true => valid::kept_or_replaced(self, domain, plain, watch),
                     false => plain,
                 }

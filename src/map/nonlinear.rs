@@ -86,7 +86,7 @@ pub(super) fn minimise(
         }
     };
     // Where the reduction has failed and another map takes the place of one that folds, it is not worth while to wait for that.
-    let (minimum, iterations) = match after.is_some() && valid::is_promised(options) {
+    let (minimum, iterations) = match after.is_some() && options.promises_valid() {
         true => valid::unless_hopeless(domain, &objective, rule, watch, run)?,
         false => run(rule, watch)?,
     };

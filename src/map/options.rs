@@ -82,6 +82,8 @@ pub enum Valid {
     Auto,
     /// The valid map of least shear, MIPS alone: lower quasi-conformal errors on coarse meshes.
     BestQc,
+    /// As `auto`; and of free maps no two parts may overlap: where they do a map whose boundary keeps off itself is in their place.
+    OneToOne,
     /// Nothing.
     Off,
 }

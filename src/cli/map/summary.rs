@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use riemap::backend::Status;
 use riemap::io::LengthUnit;
-use riemap::map::{MapOptions, Mapped, Outcome};
+use riemap::map::{Boundary, MapOptions, Mapped, Outcome, Valid};
 use riemap::report::{EnergyRecord, Report};
 
 use super::validity::faults;
@@ -52,7 +52,11 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
             help.extend((!options.keep_order).then_some("--keep-order"));
             help.push("--boundary free");
         }
-        Outcome::Minimised(_) => help.push("--boundary circle"),
+        Outcome::Minimised(_) => {
+            let may_overlap = options.boundary == Boundary::Free && options.promises_valid();
+            help.extend((may_overlap && options.valid != Valid::OneToOne).then_some("--valid one-to-one"));
+            help.push("--boundary circle");
+        }
     }
     let help = match help.is_empty() {
         true => "a finer mesh may help".to_owned(),

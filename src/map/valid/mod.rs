@@ -15,6 +15,7 @@ use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
 use crate::backend::nonlinear::Newton;
 use crate::backend::{MinimiseError, Minimiser, Observer, SolveError, Status, StopRule};
 use crate::constraint::{Fixed, Freedoms};
+use crate::distortion::Validity;
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Mips, Rest};
 use crate::objective::{Objective, Terms};
@@ -28,13 +29,15 @@ const BACKEND: &str = "newton (valid)";
 const FACES_TIMES_ITERATIONS: usize = 10_000_000;
 const MOST_ITERATIONS: std::ops::RangeInclusive<usize> = 150..=1000;
 
-/// Whether the plain map is to be replaced where it is not valid.
-pub(super) fn is_promised(options: &MapOptions) -> bool {
-    options.valid != Valid::Off
-        && options.energy.is_none()
-        && options.pins.is_empty()
-        && options.boundary_lengths.is_none()
-        && matches!(options.boundary, Boundary::Circle | Boundary::Free)
+impl MapOptions {
+    /// Whether the plain map is to be replaced where it is not valid.
+    pub fn promises_valid(&self) -> bool {
+        self.valid != Valid::Off
+            && self.energy.is_none()
+            && self.pins.is_empty()
+            && self.boundary_lengths.is_none()
+            && matches!(self.boundary, Boundary::Circle | Boundary::Free)
+    }
 }
 
 /// The plain map where it passes the exact check, which for free maps may overlap itself; else, or where there is none because it did not
@@ -48,11 +51,7 @@ pub(super) fn kept_or_replaced(
     let (folded, spent) = match &plain {
         Ok(map) => {
             let validity = domain.validity(&map.z[..domain.disc.positions.len()]);
-            let is_valid = match options.boundary {
-                Boundary::Free => validity.is_locally_one_to_one(),
-                _ => validity.is_one_to_one(),
-            };
-            if is_valid {
+            if accepts(options, &validity) {
                 return plain;
             }
             (Some(validity.folded.len()), map.iterations)
@@ -72,6 +71,14 @@ pub(super) fn kept_or_replaced(
     Ok(Map { iterations: map.iterations + spent, repaired: true, plain_folded: folded, ..map })
 }
 
+/// Whether a map is as one-to-one as is asked for: free maps may overlap, unless otherwise said.
+fn accepts(options: &MapOptions, validity: &Validity) -> bool {
+    match options.boundary {
+        Boundary::Free if options.valid != Valid::OneToOne => validity.is_locally_one_to_one(),
+        _ => validity.is_one_to_one(),
+    }
+}
+
 /// What a repair knows.
 struct Repair<'a> {
     options: &'a MapOptions,
@@ -82,6 +89,7 @@ struct Repair<'a> {
 }
 
 /// A valid map on its way, and what is known of it.
+#[derive(Clone)]
 struct Stage {
     z: Vec<Complex64>,
     energies: Vec<(&'static str, f64)>,
@@ -117,13 +125,22 @@ impl Repair<'_> {
     /// Goes on from `stage`, by as many iterations as are left. Where parts are so small that rounding folds a face as soon as places
     /// become unknowns, it stays where it is.
     fn minimise(&self, objective: &Objective, stage: Stage, watch: &mut dyn Observer) -> Result<Stage, MapError> {
+        self.minimise_within(self.most_iterations(), objective, stage, watch)
+    }
+
+    /// The same by so many iterations at most.
+    fn minimise_within(
+        &self,
+        most: usize,
+        objective: &Objective,
+        stage: Stage,
+        watch: &mut dyn Observer,
+    ) -> Result<Stage, MapError> {
         let start = objective.freedoms.restrict(&stage.z);
         if !objective.value(&start).is_finite() {
             return Ok(Stage { status: Status::Precision, ..stage });
         }
-        let most = (FACES_TIMES_ITERATIONS / self.domain.disc.faces.len())
-            .clamp(*MOST_ITERATIONS.start(), *MOST_ITERATIONS.end());
-        let left = self.left.map_or(most, |n| n.saturating_sub(stage.iterations));
+        let left = self.left.map_or(most, |n| most.min(n.saturating_sub(stage.iterations)));
         // What a step may gain decides: the gradient of a start with parts of the size 1e-20 is no measure.
         let rule = StopRule { tolerance: f64::MIN_POSITIVE, reference: None, max_iterations: Some(left) };
         let newton = Newton { smallest_gain: self.options.tolerance };
@@ -140,6 +157,17 @@ impl Repair<'_> {
             status: minimum.status,
             iterations: stage.iterations + minimum.iterations,
         })
+    }
+
+    /// Iterations of one stage at most, if there is no other limit.
+    fn most_iterations(&self) -> usize {
+        let most = FACES_TIMES_ITERATIONS / self.domain.disc.faces.len();
+        most.clamp(*MOST_ITERATIONS.start(), *MOST_ITERATIONS.end())
+    }
+
+    /// Whether the exact check accepts the map that a stage has reached.
+    fn accepts(&self, stage: &Stage) -> bool {
+        accepts(self.options, &self.domain.validity(&stage.z[..self.domain.disc.positions.len()]))
     }
 
     /// The map that a stage has reached.
