@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 use std::ops::Bound;
 
 use num_complex::Complex64;
@@ -138,10 +139,13 @@ fn edges_meet(polygon: &[Complex64], i: usize, j: usize) -> bool {
         || (cdb == 0.0 && on(c, d, b))
 }
 
-/// The number of vertices of a closed polygon around 0 that do not follow their predecessor counter-clockwise. Exact.
+/// The number of vertices of a closed polygon, on a circle around 0 or nearly so, that do not follow their predecessor counter-clockwise.
 pub fn out_of_order(polygon: &[Complex64]) -> usize {
     let next = |k: usize| polygon[(k + 1) % polygon.len()];
-    (0..polygon.len()).filter(|&k| orientation(Complex64::ZERO, polygon[k], next(k)) <= 0.0).count()
+    let behind = (0..polygon.len()).filter(|&k| orientation(Complex64::ZERO, polygon[k], next(k)) <= 0.0).count();
+    // All of them may be on one half of the circle: the last step, of more than half a turn, is ahead then and does not go around 0.
+    let turns = || (0..polygon.len()).map(|k| (next(k) * polygon[k].conj()).arg()).sum::<f64>();
+    if behind == 1 && turns() < PI { 0 } else { behind }
 }
 
 #[cfg(test)]
@@ -152,6 +156,16 @@ mod tests {
 
     fn polygon(points: &[(f64, f64)]) -> Vec<Complex64> {
         points.iter().map(|&(x, y)| Complex64::new(x, y)).collect()
+    }
+
+    #[test]
+    fn points_on_one_half_of_a_circle_are_in_order_and_points_past_each_other_are_not() {
+        let on_circle = |angles: &[f64]| angles.iter().map(|&t| Complex64::cis(t)).collect::<Vec<_>>();
+        assert_eq!(out_of_order(&on_circle(&[0.0, 2.0, 4.0])), 0);
+        assert_eq!(out_of_order(&on_circle(&[0.0, 0.1, 0.2, 3.0])), 0);
+        assert_eq!(out_of_order(&on_circle(&[0.0, 2.0, 1.9, 4.0])), 1);
+        assert_eq!(out_of_order(&on_circle(&[0.0, 0.2, 0.1, 0.3])), 2);
+        assert_eq!(out_of_order(&on_circle(&[0.3, 0.2, 0.1])), 2);
     }
 
     #[test]
