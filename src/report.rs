@@ -56,6 +56,39 @@ pub struct InputRecord {
     pub genus: Option<u64>,
     /// Digital surfaces: the voxels and their boundary.
     pub digital: Option<DigitalRecord>,
+    /// The faces without area that were mapped by a shape of their own, where there are some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surrogates: Option<SurrogatesRecord>,
+}
+
+/// Faces without area.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SurrogatesRecord {
+    /// How many. They are left out of what is said of distortion.
+    pub count: usize,
+    /// What they were at rest: a vertex lifted off the longest edge, or a rectangle.
+    pub shape: &'static str,
+    /// Height over length of that.
+    pub height: f64,
+    /// The first of them, ascending, as the source numbers them.
+    pub faces: Vec<u32>,
+}
+
+impl SurrogatesRecord {
+    /// How many faces are named.
+    const NAMED: usize = 10;
+
+    /// That of a disc; `None` where no face of the source has a surrogate.
+    pub fn new(disc: &Disc) -> Option<Self> {
+        let faces: Vec<u32> = disc.surrogates.faces.iter().map(|&f| disc.source_face[f as usize]).collect();
+        let count = faces.iter().filter(|&&f| f != Disc::NEW).count();
+        (count > 0).then(|| SurrogatesRecord {
+            count,
+            shape: if disc.faces.arity() == Some(3) { "lifted" } else { "rectangle" },
+            height: disc.surrogates.height,
+            faces: faces[..count.min(Self::NAMED)].to_vec(),
+        })
+    }
 }
 
 /// The voxels of a digital surface.
@@ -206,7 +239,7 @@ impl Report {
         let exact = input.period.map(|[re, im]| Complex64::new(re, im));
         let periods = mapped.torus.as_ref().and_then(|torus| PeriodsRecord::new(disc, torus, exact).ok());
         Report {
-            input: InputRecord::new(input, component),
+            input: InputRecord { surrogates: SurrogatesRecord::new(disc), ..InputRecord::new(input, component) },
             cut: Some(mapped.cut.clone()).filter(|cut| !cut.is_empty()),
             quad_graph: QuadGraphRecord::new(graph),
             energy: EnergyRecord::new(map),
@@ -270,6 +303,7 @@ impl InputRecord {
             euler: component.euler(),
             genus: component.genus(),
             digital: input.digital.as_ref().map(DigitalRecord::new),
+            surrogates: None,
         }
     }
 }

@@ -81,10 +81,8 @@ fn positive_weights_give_maps_that_are_one_to_one_whatever_the_shape() {
     }
 }
 
-#[test]
-fn what_rounding_spoils_is_drawn_outward() {
-    // A finger of 400 rings of four vertices: in Tutte's map each is a quarter as large as the one before.
-    let (girth, rings) = (4u32, 400u32);
+/// A finger of rings of `girth` vertices, closed at its tip by a fan: in Tutte's map each is a fraction of the size of the one before.
+fn finger(girth: u32, rings: u32) -> Surface {
     let point = |k: u32, i: u32| {
         let angle = std::f64::consts::TAU * f64::from(i) / f64::from(girth);
         [angle.cos(), angle.sin(), f64::from(k)]
@@ -101,12 +99,19 @@ fn what_rounding_spoils_is_drawn_outward() {
             }
         }
     }
-    let finger = Input::of("finger".to_owned(), surface(positions, faces));
-    let run = |valid: Valid| map::run(&finger, &MapOptions { valid, ..options("uniform") }, &mut Silent).unwrap();
-    let spoiled = run(Valid::Off);
-    assert!(!spoiled.validity.is_one_to_one() && !spoiled.map.repaired);
-    let mended = run(Valid::Auto);
-    assert!(mended.validity.is_one_to_one() && mended.map.repaired && mended.map.backend == "outward");
+    surface(positions, faces)
+}
+
+#[test]
+fn what_rounding_spoils_is_drawn_outward() {
+    for girth in [3, 4, 7] {
+        let finger = Input::of("finger".to_owned(), finger(girth, 400));
+        let run = |valid: Valid| map::run(&finger, &MapOptions { valid, ..options("uniform") }, &mut Silent).unwrap();
+        let spoiled = run(Valid::Off);
+        assert!(!spoiled.validity.is_one_to_one() && !spoiled.map.repaired, "{girth}");
+        let mended = run(Valid::Auto);
+        assert!(mended.validity.is_one_to_one() && mended.map.repaired && mended.map.backend == "outward", "{girth}");
+    }
 }
 
 #[test]

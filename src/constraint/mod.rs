@@ -67,7 +67,10 @@ pub enum ConstraintError {
         needed: usize,
     },
     /// Two boundary vertices that are held coincide at rest, so arc length does not tell them apart.
-    #[error("the boundary has no length between vertices {0} and {1}")]
+    #[error(
+        "the boundary has no length between vertices {0} and {1}, and arc length does not tell them apart: merge them, or give the edge a \
+         length (--surrogate)"
+    )]
     NoArcLength(u32, u32),
     /// Fewer equations than unknowns.
     #[error(

@@ -14,6 +14,9 @@ use crate::surface::vector::{cross, dot, norm, sub};
 /// planes. `maps` are those of [`super::face_maps`].
 pub fn corner_errors(disc: &Disc, planes: Option<&TangentPlanes>, image: &Image, maps: &[FaceMap]) -> Vec<f64> {
     let of_face = |(f, polygon): (usize, &[u32])| {
+        if disc.surrogates.has(f) {
+            return if maps[f].convex { 1.0 } else { f64::INFINITY };
+        }
         let n = polygon.len();
         if n == 3 {
             return signed(maps[f].sigma1, maps[f].sigma2);

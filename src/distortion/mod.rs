@@ -56,6 +56,9 @@ pub struct Distortion {
     pub rho_residual: Option<MeanMax>,
     /// max(t, 1/t) with t = image length / length over the mesh's edges, after the same scaling.
     pub length: Option<MeanMax>,
+    /// How small parts become beside others: the least |a| of a face over the largest, |a| = ½ (σ1 + σ2) its scale. 1: all are drawn to one
+    /// scale. Doubles hold places next to each other to 1e-16 of their distance from 0: a map with parts smaller than about 1e-15 is at the end of what they hold.
+    pub smallest_scale: Option<f64>,
     /// Faces whose image is not positively oriented, by an exact predicate.
     pub flipped: usize,
     /// The first such face, as the source numbers them.
@@ -87,6 +90,7 @@ impl Distortion {
             symmetric_dirichlet: symmetric_dirichlet(&valid, scaled),
             rho_residual: mean_max(quads.filter(|r| r.is_finite())),
             length: length_distortion(disc, planes, image, scaled),
+            smallest_scale: smallest_scale(&maps),
             flipped: flipped.len(),
             first_flipped: flipped.first().map(|&f| disc.source_face[f] as usize),
             not_convex: maps.iter().filter(|m| !m.convex).count(),
@@ -113,10 +117,18 @@ fn in_filled_face(disc: &Disc, graph: &QuadGraph, q: usize) -> bool {
 
 /// The factor on lengths in the plane that gives the image the surface's area; `None` where the image has none.
 fn area_scale(maps: &[FaceMap]) -> Option<f64> {
-    let surface: f64 = maps.iter().map(|m| m.area).sum();
-    let image: f64 = maps.iter().map(|m| m.area * (m.sigma1 * m.sigma2).abs()).sum();
+    let shapes = || maps.iter().filter(|m| m.has_shape());
+    let surface: f64 = shapes().map(|m| m.area).sum();
+    let image: f64 = shapes().map(|m| m.area * (m.sigma1 * m.sigma2).abs()).sum();
     let scale = (surface / image).sqrt();
     scale.is_finite().then_some(scale)
+}
+
+/// The least scale of a face over the largest.
+fn smallest_scale(maps: &[FaceMap]) -> Option<f64> {
+    let scales = || maps.iter().filter(|m| m.has_shape()).map(|m| 0.5 * (m.sigma1 + m.sigma2));
+    let smallest = scales().fold(f64::INFINITY, f64::min) / scales().fold(0.0, f64::max);
+    smallest.is_finite().then_some(smallest)
 }
 
 /// max(t, 1/t)
@@ -163,11 +175,17 @@ fn length_distortion(disc: &Disc, planes: Option<&TangentPlanes>, image: &Image,
         let rest = planes.map_or_else(|| norm(sub(b, a)), |planes| planes.length(f, sub(b, a)));
         symmetric_ratio(scale * (image.corner(disc, next) - image.corner(disc, c)).norm() / rest)
     };
-    let edges = (0..disc.source_faces()).flat_map(|f| faces.corner_range(f).map(move |c| (f, c)));
+    let shapes = (0..disc.source_faces()).filter(|&f| !disc.surrogates.has(f));
+    let edges = shapes.flat_map(|f| faces.corner_range(f).map(move |c| (f, c)));
     mean_max(edges.map(|(f, c)| ratio(f, c)).filter(|t| t.is_finite()))
 }
 
-/// σ1/σ2 of every face for drawing: +∞ where a face is flipped or collapsed.
+/// σ1/σ2 of every face for drawing: +∞ where a face is flipped or collapsed, 1 where it is not and has no shape to compare with.
 pub fn quasi_conformal_errors(maps: &[FaceMap]) -> Vec<f64> {
-    maps.iter().map(|map| if map.is_regular() { map.quasi_conformal() } else { f64::INFINITY }).collect()
+    let of_face = |map: &FaceMap| match map.is_regular() {
+        true => map.quasi_conformal(),
+        false if map.positive && !map.has_shape() => 1.0,
+        false => f64::INFINITY,
+    };
+    maps.iter().map(of_face).collect()
 }

@@ -28,22 +28,32 @@ impl FaceMap {
         self.sigma1 / self.sigma2
     }
 
+    /// Whether there is something to be measured: faces that have a surrogate at rest have not.
+    pub fn has_shape(&self) -> bool {
+        !self.sigma1.is_nan()
+    }
+
     /// Whether the face keeps its orientation and its singular values can be divided by.
     pub fn is_regular(&self) -> bool {
         self.positive && self.sigma2 > 0.0 && self.quasi_conformal().is_finite()
     }
 }
 
-/// The affine maps of all faces of `disc` but those put into holes, triangles by their vertices, quads by their diagonals and ρ.
+/// The affine maps of all faces of `disc` but those put into holes, triangles by their vertices, quads by their diagonals and ρ; without
+/// singular values where the face has a surrogate at rest.
 pub fn face_maps(disc: &Disc, graph: &QuadGraph, image: &Image) -> Vec<FaceMap> {
-    let quads = |(f, polygon): (usize, &[u32])| match *polygon {
+    let of_face = |f: usize, polygon: &[u32]| match *polygon {
         [i, j, k] => {
             let first = disc.faces.corner_range(f).start;
             triangle(disc, [i, j, k], [0, 1, 2].map(|k| image.corner(disc, first + k)))
         }
         _ => quad(graph, f, image.quad(graph, f)),
     };
-    disc.faces.iter().enumerate().take(disc.source_faces()).map(quads).collect()
+    let measured = |(f, polygon): (usize, &[u32])| match disc.surrogates.has(f) {
+        false => of_face(f, polygon),
+        true => FaceMap { sigma1: f64::NAN, sigma2: f64::NAN, area: 0.0, ..of_face(f, polygon) },
+    };
+    disc.faces.iter().enumerate().take(disc.source_faces()).map(measured).collect()
 }
 
 /// With the edge i → j as 0 → ℓ and the third vertex at wℓ, `z_j − z_i = (a + b)ℓ`, `z_k − z_i = (a w + b w̄)ℓ`.

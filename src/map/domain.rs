@@ -83,6 +83,9 @@ pub(super) fn planes(
     if input.surface.faces.arity() == Some(3) {
         return Err(MapError::NormalsOfTriangles);
     }
+    if let Some(&face) = disc.surrogates.faces.first() {
+        return Err(MapError::SurrogateNormals { face: disc.source_face[face as usize] });
+    }
     if let (true, Some(face)) = (spec.name() == "file", input.face_without_normal) {
         return Err(MapError::NoNormal { face });
     }

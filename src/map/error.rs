@@ -28,6 +28,20 @@ pub enum MapError {
     /// No estimate of the normals.
     #[error(transparent)]
     Normals(#[from] NormalError),
+    /// A height of faces that is none.
+    #[error("the height of surrogate faces is {height}; it must be positive, and at most 1")]
+    SurrogateHeight {
+        /// The number asked for.
+        height: f64,
+    },
+    /// A shape of its own for a face that is to be seen along a normal.
+    #[error(
+        "face {face} has no area, and its surrogate no place beside normals: leave --normals and --rho out, or --surrogate"
+    )]
+    SurrogateNormals {
+        /// The first such face, as the source numbers them.
+        face: u32,
+    },
     /// A name of no dual point.
     #[error("unknown dual point `{name}`; known: {known}")]
     UnknownDual {
@@ -153,14 +167,30 @@ pub enum MapError {
     },
     /// No map without folds to start from.
     #[error(
-        "no map without folds was found to start from: of the last one {folded} faces are folded (the first: {first:?}); the boundary must \
-         be held on a convex curve, and parts of the surface must not be too small for double precision there"
+        "no map without folds was found to start from: of the last one {folded} faces are folded (the first: {first:?}) and the shortest edge is \
+         {smallest:.0e} of its extent, where doubles tell places apart by 1e-16 of it: a boundary that is held must be so on a convex curve, \
+         and what is far from a short boundary is mapped too small; cut the surface open along a longer line, or map it in \
+         parts, or take the plain map with its folds (--valid off)"
     )]
     NoValidStart {
         /// Faces that are folded.
         folded: usize,
         /// The first of them, as the source numbers them.
         first: Option<u32>,
+        /// The shortest edge of its image over the extent of that.
+        smallest: f64,
+    },
+    /// Quads that no map makes convex.
+    #[error(
+        "no map makes the quads at vertex {vertex} convex, which is not on the boundary and has two of them alone, nor those at {} more: \
+         merge the two, or take the plain map (--valid off)",
+        count - 1
+    )]
+    NoConvexQuads {
+        /// The first such vertex, as the source numbers them.
+        vertex: u32,
+        /// How many there are.
+        count: usize,
     },
     /// Boundary lengths that no map has.
     #[error(transparent)]

@@ -46,13 +46,20 @@ impl Domain {
     /// uniform ones, of outward ones, the first.
     ///
     /// # Errors
-    /// None is: the boundary is held on no convex curve, or double precision does not suffice.
+    /// None is: the boundary is held on no convex curve, double precision does not suffice, or two quads share two edges.
     pub(super) fn convex_start(
         &self,
         fixed: &Fixed,
         suits: &dyn Fn(&[Complex64]) -> bool,
         watch: &mut dyn Observer,
     ) -> Result<Vec<Complex64>, MapError> {
+        let doublets = self.doublets();
+        if let Some(&first) = doublets.first() {
+            return Err(MapError::NoConvexQuads {
+                vertex: self.disc.source_vertex[first as usize],
+                count: doublets.len(),
+            });
+        }
         let accepts = |z: &[Complex64]| self.is_one_to_one(z) && suits(z);
         // Where an angle is 0 or π weights that see no geometry are left.
         let map_by = |name: &str, watch: &mut dyn Observer| {
@@ -67,8 +74,36 @@ impl Domain {
         if accepts(&solution.z) {
             return Ok(solution.z);
         }
+        // Weights that see no geometry last: they are drawn outward nowhere, and least where the boundary is short.
+        let uniform = map_by("uniform", watch)?;
+        if accepts(&uniform.z) {
+            return Ok(uniform.z);
+        }
         let folded = self.validity(&solution.z).folded;
-        Err(MapError::NoValidStart { folded: folded.len(), first: folded.first().copied() })
+        let smallest = self.smallest_edge(&solution.z);
+        Err(MapError::NoValidStart { folded: folded.len(), first: folded.first().copied(), smallest })
+    }
+}
+
+impl Domain {
+    /// The vertices inside a quad mesh that have two faces: an angle of one of them is π at least under every map.
+    fn doublets(&self) -> Vec<u32> {
+        if self.is_of_triangles() {
+            return Vec::new();
+        }
+        let mut faces = vec![0u32; self.disc.positions.len()];
+        self.disc.faces.corners().iter().for_each(|&v| faces[v as usize] += 1);
+        self.disc.boundary.iter().for_each(|&v| faces[v as usize] = u32::MAX);
+        (0..faces.len() as u32).filter(|&v| faces[v as usize] == 2).collect()
+    }
+
+    /// The shortest edge of an image over its extent.
+    fn smallest_edge(&self, z: &[Complex64]) -> f64 {
+        let faces = &self.disc.faces;
+        let edges = faces.iter().flat_map(|f| (0..f.len()).map(|k| [f[k], f[(k + 1) % f.len()]]));
+        let shortest = edges.map(|[a, b]| (z[b as usize] - z[a as usize]).norm()).fold(f64::INFINITY, f64::min);
+        let extent = z.iter().map(|&w| (w - z[0]).norm()).fold(0.0, f64::max);
+        shortest / extent
     }
 }
 

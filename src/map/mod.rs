@@ -145,14 +145,15 @@ pub struct Mapped {
 /// Whatever of these fails first.
 pub fn run(input: &Input, options: &MapOptions, watch: &mut dyn Observer) -> Result<Mapped, MapError> {
     watch.phase(Phase::Assemble);
-    let diagnosis = input.diagnosis();
+    let diagnosis = options.forgiving(input.diagnosis())?;
     let is_periodic = options.boundary == Boundary::Periodic;
-    let (disc, cut) = if is_periodic {
+    let (mut disc, cut) = if is_periodic {
         options.check_periodic()?;
         Disc::closed(&input.surface, &diagnosis, options.fill_holes)?
     } else {
         Disc::open(&input.surface, &diagnosis, &options.opening())?
     };
+    options.shape_flat_faces(&mut disc);
     let planes = domain::planes(input, &diagnosis, &disc, options)?;
     let Diagnosis { topology, mut findings } = diagnosis;
     // What was fatal is mended: the cut's record says how.

@@ -9,7 +9,9 @@ use crate::energy::conformal::Weight;
 use crate::io::BoundaryLengths;
 use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS, DualPoint, dual_point};
 use crate::quad_graph::{QuadGraph, RestSource};
+use crate::surface::Surrogates;
 use crate::surface::cut::Opening;
+use crate::surface::diagnosis::Diagnosis;
 use crate::surface::disc::Disc;
 use crate::surface::normals::NormalSpec;
 
@@ -98,6 +100,8 @@ pub struct MapOptions {
     pub fill_holes: bool,
     /// Faces of the source that are left out.
     pub remove_faces: Vec<u32>,
+    /// The height over length of the shapes that faces without area are given; none: they are refused. See [`Surrogates`].
+    pub surrogate: Option<f64>,
     /// What the boundary does.
     pub boundary: Boundary,
     /// The energy, in place of the one that `boundary` stands for.
@@ -149,6 +153,7 @@ impl Default for MapOptions {
             cut: false,
             fill_holes: false,
             remove_faces: Vec::new(),
+            surrogate: None,
             boundary: Boundary::default(),
             energy: None,
             shape: Shape::default(),
@@ -178,6 +183,25 @@ impl MapOptions {
     /// How the surface becomes a disc.
     pub fn opening(&self) -> Opening {
         Opening { cut: self.cut, remove_faces: self.remove_faces.clone(), fill_holes: self.fill_holes }
+    }
+
+    /// What stands against a surface when faces without area are given a shape as asked.
+    ///
+    /// # Errors
+    /// A height that is none.
+    pub(super) fn forgiving(&self, diagnosis: Diagnosis) -> Result<Diagnosis, MapError> {
+        match self.surrogate {
+            None => Ok(diagnosis),
+            Some(height) if height > 0.0 && height <= 1.0 => Ok(diagnosis.with_surrogates(height)),
+            Some(height) => Err(MapError::SurrogateHeight { height }),
+        }
+    }
+
+    /// Gives the faces of a disc that have no area a shape, where that is asked for.
+    pub(super) fn shape_flat_faces(&self, disc: &mut Disc) {
+        if let Some(height) = self.surrogate {
+            disc.surrogates = Surrogates::new(&disc.positions, &disc.faces, height);
+        }
     }
 
     /// The energy that is minimised.

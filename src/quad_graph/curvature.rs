@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{QuadGraph, difference};
+use super::QuadGraph;
 use crate::surface::disc::Disc;
 use crate::surface::vector::{cross, dot, norm, scale, sub};
 
@@ -21,7 +21,7 @@ pub fn curvature(disc: &Disc, graph: &QuadGraph, normals: Option<&[[f64; 3]]>) -
         let n = polygon.len();
         let given = normals.map(|normals| normals[f]);
         let edge = |k: usize| {
-            let d = difference(&disc.positions, polygon[k % n], polygon[(k + 1) % n]);
+            let d = disc.spoke(f, k % n, (k + 1) % n);
             given.map_or(d, |n| sub(d, scale(dot(d, n), n)))
         };
         // Twice the area: upwards.

@@ -23,8 +23,7 @@ impl QuadGraph {
         };
         for (face, polygon) in disc.faces.iter().enumerate() {
             let &[v0, v1, v2, v3] = polygon else { return Err(QuadGraphError::Corners { corners: polygon.len() }) };
-            let d02 = difference(&disc.positions, v0, v2);
-            let d13 = difference(&disc.positions, v1, v3);
+            let (d02, d13) = (disc.spoke(face, 0, 2), disc.spoke(face, 1, 3));
             let seen = match planes {
                 None => extrinsic(d02, d13).ok_or_else(|| QuadGraphError::DegenerateQuad {
                     face: disc.source_face[face] as usize,
@@ -50,7 +49,9 @@ impl QuadGraph {
 fn boundary_lengths(disc: &Disc, planes: Option<&TangentPlanes>) -> Vec<f64> {
     let n = disc.boundary.len();
     let ahead = |k: usize| difference(&disc.positions, disc.boundary[k], disc.boundary[(k + 1) % n]);
-    let Some(planes) = planes else { return (0..n).map(|k| norm(ahead(k))).collect() };
+    if planes.is_none() && disc.surrogates.height == 0.0 {
+        return (0..n).map(|k| norm(ahead(k))).collect();
+    }
     let mut position = vec![u32::MAX; disc.positions.len()];
     for (k, &v) in disc.boundary.iter().enumerate() {
         position[v as usize] = k as u32;
@@ -62,7 +63,16 @@ fn boundary_lengths(disc: &Disc, planes: Option<&TangentPlanes>) -> Vec<f64> {
         let face = edges.face_of_corner[c as usize] as usize;
         let corner_vertex = disc.faces.corners();
         let (v, w) = (corner_vertex[c as usize], corner_vertex[next_in(&disc.faces, face, c as usize)]);
-        lengths[position[v as usize] as usize] = planes.length(face, difference(&disc.positions, v, w));
+        lengths[position[v as usize] as usize] = match planes {
+            Some(planes) => planes.length(face, difference(&disc.positions, v, w)),
+            None => {
+                let longest = (0..4).map(|k| norm(disc.spoke(face, k, (k + 1) % 4))).fold(0.0, f64::max);
+                match disc.edge_length(&[c], &edges.face_of_corner) {
+                    0.0 => disc.surrogates.height * longest,
+                    length => length,
+                }
+            }
+        };
     }
     lengths
 }

@@ -1,7 +1,7 @@
 use num_complex::Complex64;
 
 use super::dual::{BoundaryDual, DualPoint};
-use super::{QuadGraph, QuadGraphError, difference};
+use super::{QuadGraph, QuadGraphError};
 use crate::surface::disc::Disc;
 use crate::surface::edges::{Edges, next_in};
 use crate::surface::vector::{add, cross, dot, norm, scale};
@@ -59,7 +59,7 @@ impl QuadGraph {
             let c = corners[0] as usize;
             let f = edges.face_of_corner[c];
             let (vi, vj) = (corner_vertex[c], corner_vertex[next_in(&disc.faces, f as usize, c)]);
-            let length = norm(difference(&disc.positions, vi, vj));
+            let length = disc.edge_length(corners, &edges.face_of_corner);
             let (s, h) = placed[c];
             let (right, rho) = match corners {
                 &[_, d] => {
@@ -108,9 +108,8 @@ pub(super) fn place_dual_points(disc: &Disc, dual: &dyn DualPoint) -> Result<Vec
     let mut placed = Vec::with_capacity(disc.faces.corners().len());
     for (face, polygon) in disc.faces.iter().enumerate() {
         let &[a, b, c] = polygon else { return Err(QuadGraphError::Corners { corners: polygon.len() }) };
-        for (vi, vj, vk) in [(a, b, c), (b, c, a), (c, a, b)] {
-            let edge = difference(&disc.positions, vi, vj);
-            let third = difference(&disc.positions, vi, vk);
+        for k in 0..3 {
+            let [edge, third] = [1, 2].map(|step| disc.spoke(face, k, (k + step) % 3));
             let length_squared = dot(edge, edge);
             let (s, h) = dual.place(dot(edge, third) / length_squared, norm(cross(edge, third)) / length_squared);
             if !(s.is_finite() && h.is_finite() && length_squared > 0.0) {

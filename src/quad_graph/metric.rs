@@ -32,9 +32,8 @@ impl RestMetric {
         let projected = planes.filter(|planes| planes.rest == RestSource::Projected);
         let folded_area: Vec<f64> = (0..graph.quads.len())
             .map(|q| {
-                let [v0, v1, v2, v3] = graph.quads[q];
-                let [d1, d2, d3] = [v1, v2, v3].map(|v| {
-                    let d = difference(&disc.positions, v0, v);
+                let [d1, d2, d3] = [1, 2, 3].map(|k| {
+                    let d = disc.spoke(q, 0, k);
                     projected.map_or(d, |planes| planes.project(q, d))
                 });
                 0.5 * (norm(cross(d3, d2)) + norm(cross(d2, d1)))
@@ -50,7 +49,7 @@ impl RestMetric {
             let [a, b] = edges.ends[e];
             let d = difference(&disc.positions, a, b);
             match projected {
-                None => norm(d),
+                None => disc.edge_length(edges.corners(e), &edges.face_of_corner),
                 Some(planes) => quads(e).map(|q| planes.length(q, d)).sum::<f64>() / edges.corners(e).len() as f64,
             }
         };
@@ -59,7 +58,16 @@ impl RestMetric {
             area: (0..edges.len()).map(|e| quads(e).map(|q| 0.5 * area_of(q)).sum()).collect(),
             folded_area,
             edges: edges.ends,
-            triangles: rest_triangles(disc, planes),
+            triangles: rest_triangles(disc, planes, false),
+        }
+    }
+
+    /// The same with triangles at the corners of quads whose angle is 0 or π, or that have an edge without length.
+    #[must_use]
+    pub fn with_open_corners(self, disc: &Disc, planes: Option<&TangentPlanes>) -> Self {
+        match disc.faces.arity() {
+            Some(4) => RestMetric { triangles: rest_triangles(disc, planes, true), ..self },
+            _ => self,
         }
     }
 
@@ -77,7 +85,7 @@ impl RestMetric {
             length: Vec::with_capacity(corners + graph.boundary.len()),
             area: Vec::with_capacity(corners + graph.boundary.len()),
             folded_area: vec![0.0; graph.quads.len()],
-            triangles: rest_triangles(disc, None),
+            triangles: rest_triangles(disc, None, false),
         };
         for f in 0..disc.faces.len() {
             let range = disc.faces.corner_range(f);

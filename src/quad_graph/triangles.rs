@@ -2,7 +2,8 @@
 
 use num_complex::Complex64;
 
-use super::{TangentPlanes, difference};
+use super::TangentPlanes;
+use crate::surface::Surrogates;
 use crate::surface::disc::Disc;
 use crate::surface::vector::{cross, dot, norm};
 
@@ -17,7 +18,7 @@ pub struct RestTriangle {
     pub length: f64,
     /// What it counts for: the area of a triangle; of a corner of a quad half of it, as the four of a flat quad cover it twice.
     pub area: f64,
-    /// What it counts for where every face counts for 1.
+    /// What it counts for where every face counts for 1, one with a surrogate for the height of that.
     pub share: f64,
     /// Its face, as the source numbers them.
     pub face: u32,
@@ -31,25 +32,31 @@ impl RestTriangle {
 }
 
 /// The triangles of a disc: its faces, or the four corners of each of its quads, projected on `planes` where these are given.
-pub(super) fn rest_triangles(disc: &Disc, planes: Option<&TangentPlanes>) -> Vec<RestTriangle> {
+///
+/// A corner of a quad may have no area where the quad has: its angle is 0 or π, or one of its edges has no length. With `opened` it is given
+/// one, as [`Surrogates`] give it to triangles.
+pub(super) fn rest_triangles(disc: &Disc, planes: Option<&TangentPlanes>, opened: bool) -> Vec<RestTriangle> {
     let mut triangles = Vec::with_capacity(disc.faces.corners().len());
     for (f, polygon) in disc.faces.iter().enumerate() {
         let n = polygon.len();
-        let (corners, share) = if n == 3 { (1, 1.0) } else { (n, 0.5) };
-        for k in 0..corners {
-            let vertices = [k, (k + 1) % n, (k + n - 1) % n].map(|k| polygon[k]);
-            let edge = |to: u32| {
-                let d = difference(&disc.positions, vertices[0], to);
+        let (count, share) = if n == 3 { (1, 1.0) } else { (n, 0.5) };
+        for k in 0..count {
+            let corners = [k, (k + 1) % n, (k + n - 1) % n];
+            let edge = |to: usize| {
+                let d = disc.spoke(f, k, to);
                 planes.map_or(d, |planes| planes.project(f, d))
             };
-            let (ahead, behind) = (edge(vertices[1]), edge(vertices[2]));
+            let (mut ahead, mut behind) = (edge(corners[1]), edge(corners[2]));
+            if opened && n > 3 {
+                [ahead, behind] = Surrogates::opened([ahead, behind]);
+            }
             let (length_squared, twice_area) = (dot(ahead, ahead), norm(cross(ahead, behind)));
             triangles.push(RestTriangle {
-                vertices,
+                vertices: corners.map(|k| polygon[k]),
                 w: Complex64::new(dot(ahead, behind), twice_area) / length_squared,
                 length: length_squared.sqrt(),
                 area: 0.5 * share * twice_area,
-                share: 1.0 / corners as f64,
+                share: disc.surrogates.share(f) / count as f64,
                 face: disc.source_face[f],
             });
         }

@@ -6,7 +6,7 @@ use super::{Surface, vector};
 
 /// Twice a face's area over its longest extent squared, below which doubles cannot tell the area from zero: four
 /// roundings of a product of lengths.
-const ZERO_AREA: f64 = 4.0 * f64::EPSILON;
+pub(super) const ZERO_AREA: f64 = 4.0 * f64::EPSILON;
 
 /// Extents for which products of four lengths, from the extent down to 1e-16 of it, neither overflow nor vanish.
 const EXTENTS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
@@ -94,7 +94,7 @@ pub(super) fn of_geometry(surface: &Surface, topology: &Topology) -> Vec<Finding
     }
     let quads_only = surface.faces.arity() == Some(4);
     let zero_length = topology.edges.ends.iter().filter(|[a, b]| a != b && x[*a as usize] == x[*b as usize]).copied();
-    let zero_area = (0..surface.faces.len()).filter(|&f| has_no_area(surface, f));
+    let zero_area = (0..surface.faces.len()).filter(|&f| has_no_area(&surface.positions, surface.faces.get(f)));
     [
         Tally::of(zero_length).report(|edge, count| Finding::ZeroLengthEdges { edge, count, fatal: !quads_only }),
         Tally::of(zero_area).report(|face, count| Finding::ZeroAreaFaces { face: face as u32, count }),
@@ -115,11 +115,10 @@ fn extent(surface: &Surface, topology: &Topology) -> f64 {
 }
 
 /// Whether the vector area ½ Σ (xᵢ − x₀) × (xᵢ₊₁ − x₀) vanishes to rounding.
-fn has_no_area(surface: &Surface, f: usize) -> bool {
-    let polygon = surface.faces.get(f);
+pub(super) fn has_no_area(positions: &[[f64; 3]], polygon: &[u32]) -> bool {
     let Some((&first, others)) = polygon.split_first() else { return true };
-    let origin = surface.positions[first as usize];
-    let spokes = others.iter().map(|&v| vector::sub(surface.positions[v as usize], origin));
+    let origin = positions[first as usize];
+    let spokes = others.iter().map(|&v| vector::sub(positions[v as usize], origin));
     let (mut twice_area, mut extent, mut previous) = ([0.0; 3], 0.0f64, [0.0; 3]);
     for spoke in spokes {
         twice_area = vector::add(twice_area, vector::cross(previous, spoke));

@@ -39,6 +39,8 @@ pub enum Finding {
     ZeroLengthEdges { edge: [u32; 2], count: usize, fatal: bool },
     /// A face has no area that doubles can tell from zero.
     ZeroAreaFaces { face: u32, count: usize },
+    /// Such faces, each with a shape of this height over its length in its place.
+    Surrogates { face: u32, count: usize, height: f64 },
     /// An edge of three or more faces.
     NonManifoldEdges { edge: [u32; 2], faces: Vec<u32>, count: usize },
     /// A vertex where the surface touches itself.
@@ -63,7 +65,7 @@ impl Finding {
     /// What follows for mapping.
     pub fn severity(&self) -> Severity {
         match self {
-            Finding::Reoriented { .. } => Severity::Repaired,
+            Finding::Reoriented { .. } | Finding::Surrogates { .. } => Severity::Repaired,
             Finding::Unreferenced { .. } | Finding::CoincidentVertices { .. } => Severity::Note,
             Finding::ZeroLengthEdges { fatal: false, .. } => Severity::Note,
             _ => Severity::Fatal,
@@ -81,9 +83,17 @@ impl Finding {
             }
             Finding::RepeatedVertex { .. } => "remove the repeated corner, or the face",
             Finding::DuplicateFaces { .. } => "remove all but one of each set",
-            Finding::ZeroLengthEdges { fatal: true, .. } => "merge the two end vertices (collapse the edge)",
+            Finding::ZeroLengthEdges { fatal: true, .. } => {
+                "merge the two end vertices (collapse the edge), or give its faces a shape (--surrogate)"
+            }
             Finding::ZeroLengthEdges { .. } => "quads are mapped through their diagonals; nothing need be done",
-            Finding::ZeroAreaFaces { .. } => "remove or collapse the face, or move a vertex",
+            Finding::ZeroAreaFaces { .. } => {
+                "remove or collapse the face, or move a vertex, or have it mapped by a shape of its own (--surrogate)"
+            }
+            Finding::Surrogates { .. } => {
+                "the output keeps them as they are; what is said of distortion leaves them out; a smaller height disturbs their neighbours less \
+                 (--surrogate=HEIGHT)"
+            }
             Finding::NonManifoldEdges { .. } => "remove surplus faces, or split the edge into one per pair of faces",
             Finding::NonManifoldVertices { .. } => "split the vertex into one per fan of faces, or let --cut do so",
             Finding::NonOrientable { .. } => {
@@ -158,6 +168,14 @@ impl fmt::Display for Finding {
             }
             Finding::ZeroAreaFaces { face, count } => {
                 write!(out, "{} no area: face {face}", counted(*count, "face has", "faces have"))
+            }
+            Finding::Surrogates { face, count, height } => {
+                let faces = counted(*count, "face has", "faces have");
+                write!(
+                    out,
+                    "{faces} no area, face {face} the first: mapped as if a vertex were lifted off the longest edge (quads: as a rectangle) to \
+                     {height} of its length"
+                )
             }
             Finding::NonManifoldEdges { edge: [a, b], faces, count } => {
                 let listed: Vec<String> = faces.iter().take(6).map(u32::to_string).collect();
@@ -249,6 +267,22 @@ impl Diagnosis {
         findings.extend(defect::of_vertices(surface, &topology));
         findings.sort_by_key(Finding::severity);
         Diagnosis { topology, findings }
+    }
+
+    /// The same where faces without area are mapped by [`Surrogates`](super::Surrogates) of this height.
+    #[must_use]
+    pub fn with_surrogates(mut self, height: f64) -> Self {
+        let mut lifted = false;
+        for finding in &mut self.findings {
+            if let Finding::ZeroAreaFaces { face, count } = *finding {
+                *finding = Finding::Surrogates { face, count, height };
+                lifted = true;
+            }
+        }
+        // Edges without length are those of such faces; of quads alone there are others.
+        self.findings.retain(|f| !(lifted && matches!(f, Finding::ZeroLengthEdges { fatal: true, .. })));
+        self.findings.sort_by_key(Finding::severity);
+        self
     }
 
     /// The findings that keep the surface from being mapped to the plane.

@@ -2,7 +2,7 @@
 
 use super::diagnosis::{Diagnosis, Finding};
 use super::edges::next_in;
-use super::{Faces, Surface};
+use super::{Faces, Surface, Surrogates};
 
 /// One consistently oriented topological disc of triangles or of quads, vertices numbered without gaps; or, from
 /// [`Disc::closed`], a closed surface.
@@ -24,6 +24,8 @@ pub struct Disc {
     pub source_face: Vec<u32>,
     /// Number of faces that were put into holes. They take part in the map, but not in what is written or measured.
     pub filled: usize,
+    /// The faces without area that are given a shape; none unless that is asked for.
+    pub surrogates: Surrogates,
 }
 
 /// The surface is no disc, or too badly formed to be mapped: all that stands against it.
@@ -71,7 +73,16 @@ impl Disc {
         let boundary = boundary(surface, diagnosis, &compact);
         let positions = source_vertex.iter().map(|&v| surface.positions[v as usize]).collect();
         let source_face = (0..faces.len() as u32).collect();
-        Ok(Disc { positions, faces, face_normals, boundary, source_vertex, source_face, filled: 0 })
+        Ok(Disc {
+            positions,
+            faces,
+            face_normals,
+            boundary,
+            source_vertex,
+            source_face,
+            filled: 0,
+            surrogates: Surrogates::default(),
+        })
     }
 
     /// Number of faces that the source has too; they come first.

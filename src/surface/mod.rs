@@ -13,12 +13,14 @@ pub mod homology;
 pub mod normals;
 pub mod orientation;
 pub mod parameters;
+mod surrogate;
 pub mod topology;
 pub mod tree_cotree;
 mod union_find;
 pub(crate) mod vector;
 
 pub use faces::Faces;
+pub use surrogate::Surrogates;
 pub(crate) use union_find::UnionFind;
 
 /// A polygon mesh as its source states it, before any judgement: indices are valid, nothing else is promised.

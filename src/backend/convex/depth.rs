@@ -7,7 +7,7 @@ use crate::surface::edges::Edges;
 pub enum Towards {
     /// To all that are nearer to the boundary.
     All,
-    /// To the first of them.
+    /// To one of them, another one each as far as that goes.
     One,
 }
 
@@ -19,15 +19,42 @@ pub enum Towards {
 pub fn outward(disc: &Disc, towards: Towards, others: f64) -> Vec<Weighted> {
     let edges = Edges::new(&disc.faces, disc.positions.len());
     let depth = depths(disc, &edges);
-    let mut drawn = vec![false; disc.positions.len()];
+    let is_nearer = |neighbour: u32, vertex: u32| depth[neighbour as usize] < depth[vertex as usize];
+    let chosen = match towards {
+        Towards::All => Vec::new(),
+        Towards::One => matched(&edges.ends, &is_nearer, disc.positions.len()),
+    };
     let both = edges.ends.iter().flat_map(|&[a, b]| [(a, b), (b, a)]);
     let weighted = |(vertex, neighbour): (u32, u32)| {
-        let nearer = depth[neighbour as usize] < depth[vertex as usize];
-        let counts = nearer && (towards == Towards::All || !drawn[vertex as usize]);
-        drawn[vertex as usize] |= counts;
+        let counts = match towards {
+            Towards::All => is_nearer(neighbour, vertex),
+            Towards::One => chosen[vertex as usize] == neighbour,
+        };
         Weighted { vertex, neighbour, weight: if counts { 1.0 } else { others } }
     };
     both.map(weighted).collect()
+}
+
+/// For each vertex a neighbour nearer to the boundary, one that as few others have chosen as can be: where two vertices of a ring go to one of
+/// the ring before, they come to lie on each other, and rings of three are done for. `u32::MAX` where there is none.
+fn matched(ends: &[[u32; 2]], is_nearer: &dyn Fn(u32, u32) -> bool, vertices: usize) -> Vec<u32> {
+    let mut nearer = vec![Vec::new(); vertices];
+    for &[a, b] in ends {
+        for (v, w) in [(a, b), (b, a)] {
+            if is_nearer(w, v) {
+                nearer[v as usize].push(w);
+            }
+        }
+    }
+    let mut taken = vec![0u32; vertices];
+    let choose = |candidates: &Vec<u32>| match candidates.iter().min_by_key(|&&w| taken[w as usize]) {
+        None => u32::MAX,
+        Some(&w) => {
+            taken[w as usize] += 1;
+            w
+        }
+    };
+    nearer.iter().map(choose).collect()
 }
 
 /// The least number of edges from each vertex to the boundary.

@@ -3,7 +3,7 @@
 use super::{ConvexError, Weighted};
 use crate::surface::disc::Disc;
 use crate::surface::edges::Edges;
-use crate::surface::vector::{cross, dot, norm, sub};
+use crate::surface::vector::{cross, dot, norm};
 
 /// 1 along every edge, both ways.
 pub(super) fn uniform(disc: &Disc) -> Result<Vec<Weighted>, ConvexError> {
@@ -19,7 +19,7 @@ pub(super) fn mean_value(disc: &Disc) -> Result<Vec<Weighted>, ConvexError> {
         let n = polygon.len();
         for k in 0..n {
             let [vertex, ahead, behind] = [0, 1, n - 1].map(|step| polygon[(k + step) % n]);
-            let [to_ahead, to_behind] = [ahead, behind].map(|v| edge(disc, vertex, v));
+            let [to_ahead, to_behind] = [1, n - 1].map(|step| disc.spoke(f, k, (k + step) % n));
             let (product, along, area) =
                 (norm(to_ahead) * norm(to_behind), dot(to_ahead, to_behind), norm(cross(to_ahead, to_behind)));
             // tan α/2 = sin α / (1 + cos α) = (1 − cos α) / sin α: of the two the one without cancellation.
@@ -41,8 +41,8 @@ pub(super) fn cotan(disc: &Disc) -> Result<Vec<Weighted>, ConvexError> {
     let mut weights = Vec::with_capacity(2 * disc.faces.corners().len());
     for (f, polygon) in disc.faces.iter().enumerate() {
         let &[a, b, c] = polygon else { return Err(ConvexError::NotTriangles { corners: polygon.len() }) };
-        for [apex, i, j] in [[a, b, c], [b, c, a], [c, a, b]] {
-            let (u, v) = (edge(disc, apex, i), edge(disc, apex, j));
+        for (k, [i, j]) in [[b, c], [c, a], [a, b]].into_iter().enumerate() {
+            let [u, v] = [1, 2].map(|step| disc.spoke(f, k, (k + step) % 3));
             let weight = 0.5 * dot(u, v) / norm(cross(u, v));
             if !weight.is_finite() {
                 return Err(ConvexError::NoAngle { name: "cotan", face: disc.source_face[f] });
@@ -51,10 +51,6 @@ pub(super) fn cotan(disc: &Disc) -> Result<Vec<Weighted>, ConvexError> {
         }
     }
     Ok(weights)
-}
-
-fn edge(disc: &Disc, a: u32, b: u32) -> [f64; 3] {
-    sub(disc.positions[b as usize], disc.positions[a as usize])
 }
 
 pub(super) fn both_ways(a: u32, b: u32, weight: f64) -> [Weighted; 2] {

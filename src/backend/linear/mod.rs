@@ -167,6 +167,14 @@ pub enum SolveError {
 }
 
 impl SolveError {
+    /// Whether rounding alone stands against the solution: a matrix too near to one without inverse.
+    pub fn is_of_rounding(&self) -> bool {
+        matches!(
+            self,
+            SolveError::NotPositiveDefinite { .. } | SolveError::Singular { .. } | SolveError::Inaccurate { .. }
+        )
+    }
+
     /// What a failed Cholesky factorisation means to the user.
     fn broken(backend: &dyn LinearBackend, problem: &LinearProblem, reason: Breakdown) -> Self {
         let (backend, size) = (backend.name(), problem.elimination.unknowns());

@@ -41,6 +41,10 @@ pub struct Arguments {
     /// Leave a face out (from 0); repeatable
     #[arg(long, value_name = "F")]
     pub(super) remove_face: Vec<u32>,
+    /// Map faces without area too, which are refused otherwise: each as if its third vertex were lifted off its longest edge to HEIGHT times
+    /// the edge's length (quads: as a rectangle of these sides). The output keeps them as they are [default HEIGHT: 0.01]
+    #[arg(long, value_name = "HEIGHT", num_args = 0..=1, require_equals = true, default_missing_value = "0.01", value_parser = height)]
+    pub(super) surrogate: Option<f64>,
     /// Energy, in place of the one of --boundary: terms H C A L Lb (L' is Lb) MIPS SD with coefficients, as in "H + 0.5 L + A"
     #[arg(long, value_name = "E", value_parser = Expression::from_str)]
     pub(super) energy: Option<Expression>,
@@ -196,6 +200,10 @@ pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped
             options.cut && opening.cut_edges == 0 && opening.vertices_split == 0,
             "--cut has no effect: the surface is a disc",
         ),
+        (
+            options.surrogate.is_some() && mapped.domain.disc.surrogates.faces.is_empty(),
+            "--surrogate has no effect: every face has an area",
+        ),
         (options.fill_holes && opening.holes_filled == 0, "--fill-holes has no effect: there is no hole to be filled"),
         (
             options.rest != RestSource::default() && mapped.domain.planes.is_none(),
@@ -211,6 +219,12 @@ pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped
         ),
     ];
     idle.into_iter().filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()
+}
+
+/// Parses the height of a surrogate.
+fn height(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|h| *h > 0.0 && *h <= 1.0);
+    number.ok_or_else(|| "expected a number above 0, at most 1".to_owned())
 }
 
 /// Parses a tolerance.
@@ -244,6 +258,7 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
         cut: arguments.cut,
         fill_holes: arguments.fill_holes,
         remove_faces: arguments.remove_face.clone(),
+        surrogate: arguments.surrogate,
         boundary: arguments.boundary.unwrap_or_default(),
         energy: arguments.energy.clone(),
         fix: arguments.fix.map_or(defaults.fix, usize::from),

@@ -13,7 +13,7 @@ use num_complex::Complex64;
 
 use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
 use crate::backend::nonlinear::Newton;
-use crate::backend::{MinimiseError, Minimiser, Observer, SolveError, Status, StopRule};
+use crate::backend::{MinimiseError, Minimiser, Observer, Status, StopRule};
 use crate::constraint::{Fixed, Freedoms};
 use crate::distortion::Validity;
 use crate::energy::conformal::{Dirichlet, Weight};
@@ -58,10 +58,11 @@ pub(super) fn kept_or_replaced(
         }
         Err(MapError::NotConverged { iterations, .. }) => (None, *iterations),
         // A start, or a matrix, beyond the range of doubles: others may be within.
-        Err(MapError::Minimise(_) | MapError::Solve(SolveError::Singular { .. })) => (None, 0),
+        Err(MapError::Minimise(_)) => (None, 0),
+        Err(MapError::Solve(error)) if error.is_of_rounding() => (None, 0),
         Err(_) => return plain,
     };
-    let metric = domain.rest_metric(options)?;
+    let metric = domain.rest_metric(options)?.with_open_corners(&domain.disc, domain.planes.as_ref());
     let left = options.max_iterations.map(|n| n.saturating_sub(spent));
     let repair = Repair { options, domain, metric: &metric, left };
     let map = match options.boundary {

@@ -4,7 +4,7 @@ use crate::surface::disc::Disc;
 use crate::surface::edges::Edges;
 use crate::surface::topology::Topology;
 use crate::surface::vector::scale;
-use crate::surface::{Faces, Surface, UnionFind};
+use crate::surface::{Faces, Surface, Surrogates, UnionFind};
 
 /// One connected piece of triangles or of quads, consistently oriented.
 pub(in crate::surface) struct Sheet {
@@ -205,6 +205,7 @@ impl Sheet {
             face_normals: self.face_normals,
             source_vertex: self.source_vertex,
             source_face: self.source_face,
+            surrogates: Surrogates::default(),
         }
     }
 }
