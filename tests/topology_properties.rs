@@ -52,6 +52,7 @@ fn counts(diagnosis: &Diagnosis) -> Vec<String> {
             Finding::DuplicateFaces { count, .. } => format!("duplicate {count}"),
             Finding::ZeroLengthEdges { count, fatal, .. } => format!("zero length {count} {fatal}"),
             Finding::ZeroAreaFaces { count, .. } => format!("zero area {count}"),
+            Finding::Surrogates { count, .. } => format!("surrogates {count}"),
             Finding::NonManifoldEdges { count, .. } => format!("edges {count}"),
             Finding::NonManifoldVertices { count, .. } => format!("vertices {count}"),
             Finding::NonOrientable { .. } => "not orientable".to_string(),

@@ -161,9 +161,17 @@ pub(super) fn evaluated(problem: &mut Problem<Target>, state: Iterate) -> Result
     Ok(state.cost(cost).gradient(gradient))
 }
 
-/// Euclidean norm.
+/// Euclidean norm. Where parts of a map are of the size 1e-160 the squares leave the range of doubles, and the norm does not.
 pub(super) fn norm(v: &[f64]) -> f64 {
-    dot(v, v).sqrt()
+    let squared = dot(v, v);
+    if (1e-280..=1e280).contains(&squared) || squared == 0.0 && v.iter().all(|x| *x == 0.0) {
+        return squared.sqrt();
+    }
+    let unit = v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    if !unit.is_finite() || squared.is_nan() {
+        return squared.sqrt();
+    }
+    unit * v.iter().map(|x| (x / unit).powi(2)).sum::<f64>().sqrt()
 }
 
 /// a · b

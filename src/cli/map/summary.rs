@@ -23,12 +23,19 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
     match map.outcome {
         Outcome::Minimised(Status::MaxIterations) => {
             eprintln!(
-                "riemap: warning: not converged after {} iterations; the map is the best reached",
-                map.iterations
+                "riemap: warning: not converged after {} iterations; the map is the best reached{}",
+                map.iterations,
+                crowding(mapped).map(|why| format!(": {why}")).unwrap_or_default()
             );
         }
         Outcome::Minimised(Status::Interrupted) => {
             eprintln!("riemap: warning: interrupted after {} iterations; the map is the best reached", map.iterations);
+        }
+        Outcome::Minimised(status) if map.repaired => {
+            let at_the_end = distortion.smallest_scale.is_some_and(|scale| scale < END_OF_DOUBLES);
+            if let Some(why) = crowding(mapped).filter(|_| at_the_end || status == Status::Precision) {
+                eprintln!("riemap: warning: rounding keeps the map from coming nearer to the conformal one: {why}");
+            }
         }
         _ => {}
     }
@@ -69,6 +76,24 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         let points = plural(count, "boundary point is", "boundary points are");
         eprintln!("riemap: warning: {points} out of order along the circle; {help}");
     }
+}
+
+/// Scales that differ by more than this keep a minimisation from its end, or make it long.
+const CROWDED: f64 = 1e-6;
+
+/// With parts of this scale beside the largest places are not told apart any more, but near 0; a minimisation seems to end there.
+const END_OF_DOUBLES: f64 = 1e-13;
+
+/// Where parts of a map are much smaller than others, how much, and what to do.
+fn crowding(mapped: &Mapped) -> Option<String> {
+    let smallest = mapped.distortion.smallest_scale.filter(|&scale| scale < CROWDED)?;
+    let help = match mapped.map.on_circle {
+        true => "--boundary free crowds them less",
+        false => "a longer boundary, by a cut through what is crowded, does not",
+    };
+    Some(format!(
+        "the scale of its smallest parts is {smallest:.1e} of that of its largest, and doubles end near 1e-16; {help}"
+    ))
 }
 
 /// The summary of a run.
@@ -156,7 +181,12 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
         )?;
     }
     if let Some(area) = &distortion.area {
-        writeln!(out, "area distortion: mean {:.4}, max {:.4}", area.mean, area.max)?;
+        let smallest = distortion.smallest_scale.unwrap_or(1.0);
+        writeln!(
+            out,
+            "area distortion: mean {:.4}, max {:.4}; the smallest scale is {smallest:.2e} of the largest",
+            area.mean, area.max
+        )?;
     }
     let simple = if distortion.boundary_crosses { "crosses itself" } else { "is simple" };
     let one_to_one = if solver.valid { "; one-to-one by the exact check" } else { "" };
