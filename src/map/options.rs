@@ -79,10 +79,11 @@ pub enum Start {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Valid {
-    /// A valid map that is as near to the plain one as can be: H + 0.1 MIPS.
+    /// A valid map of little shear: the lowest MIPS with all faces counting alike, with a free boundary MIPS + γ'L'.
     #[default]
     Auto,
-    /// The valid map of least shear, MIPS alone: lower quasi-conformal errors on coarse meshes.
+    /// That map in the place of a valid plain one, too, where its mean σ1/σ2 is lower: on coarse and obtuse meshes. On fine ones the
+    /// plain map is nearer to the exact one.
     BestQc,
     /// As `auto`; and of free maps no two parts may overlap: where they do a map whose boundary keeps off itself is in their place.
     OneToOne,

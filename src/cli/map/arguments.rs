@@ -69,8 +69,9 @@ pub struct Arguments {
     /// `riemap list`
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EDGE_WEIGHTS.iter().map(|w| w.name)))]
     pub(super) weights: Option<String>,
-    /// A circle or free map that folds is replaced by a valid one: by H + 0.1 MIPS (auto), by MIPS alone, of less shear (best-qc). Free
-    /// maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an --energy or pins of one's own do
+    /// A circle or free map that folds is replaced by a valid one of little shear (auto), or one that does not, too, where the
+    /// other has less shear (best-qc). Free maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an
+    /// --energy or pins of one's own do
     #[arg(long, default_value = "auto", value_parser = by_name::<Valid>)]
     pub(super) valid: Valid,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper [default: 3]

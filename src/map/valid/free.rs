@@ -8,11 +8,14 @@ use crate::constraint::{Fixed, Freedoms};
 use crate::energy::conformal::Weight;
 use crate::energy::{Clearance, Expression, Metric};
 use crate::map::flip_free::{area_at_rest, hold_gauge, image_area};
-use crate::map::{Map, MapError};
+use crate::map::{Map, MapError, Valid};
 use crate::objective::Objective;
 
 /// Coefficients of L', stage after stage: at first the boundary keeps its lengths, at last it may follow the shapes of the faces.
 const LENGTHS: [f64; 2] = [1.0, 1e-2];
+
+/// One more where nothing but the shear counts.
+const HARDLY: f64 = 1e-4;
 
 /// The coefficient of the barrier that keeps the boundary off itself.
 const CLEARANCE: f64 = 0.1;
@@ -58,7 +61,8 @@ impl Repair<'_> {
             // A boundary that must become longer at once is crumpled, and so jams.
             Overlaps::Barred => &LENGTHS[1..],
         };
-        for &coefficient in lengths {
+        let last = (self.options.valid == Valid::BestQc).then_some(HARDLY);
+        for coefficient in lengths.iter().copied().chain(last) {
             if self.is_over(&stage) {
                 break;
             }
@@ -92,7 +96,7 @@ impl Repair<'_> {
 
     /// MIPS + γ'L'.
     fn flat(&self, coefficient: f64, held: &Fixed) -> Result<Objective, MapError> {
-        let mut terms = self.mips(1.0)?;
+        let mut terms = self.mips(area_at_rest(self.metric))?;
         terms.push((coefficient, Box::new(Metric::mesh_boundary_edges(self.rest(&[], Weight::Integral)))));
         Ok(self.objective(terms, Freedoms::new(self.domain.graph.vertices, held)))
     }

@@ -15,7 +15,7 @@ use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
 use crate::backend::nonlinear::Newton;
 use crate::backend::{MinimiseError, Minimiser, Observer, Status, StopRule};
 use crate::constraint::{Fixed, Freedoms};
-use crate::distortion::Validity;
+use crate::distortion::{FaceMap, Image, Validity, face_maps};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Mips, Rest};
 use crate::objective::{Objective, Terms};
@@ -41,35 +41,50 @@ impl MapOptions {
 }
 
 /// The plain map where it passes the exact check, which for free maps may overlap itself; else, or where there is none because it did not
-/// converge, a valid one.
+/// converge, a valid one. Under [`Valid::BestQc`] that of the two which has less shear.
 pub(super) fn kept_or_replaced(
     options: &MapOptions,
     domain: &Domain,
     plain: Result<Map, MapError>,
     watch: &mut dyn Observer,
 ) -> Result<Map, MapError> {
-    let (folded, spent) = match &plain {
+    let (kept, folded, spent) = match plain {
         Ok(map) => {
             let validity = domain.validity(&map.z[..domain.disc.positions.len()]);
-            if accepts(options, &validity) {
-                return plain;
+            let spent = map.iterations;
+            match accepts(options, &validity) {
+                true if options.valid != Valid::BestQc => return Ok(map),
+                true => (Some(map), None, spent),
+                false => (None, Some(validity.folded.len()), spent),
             }
-            (Some(validity.folded.len()), map.iterations)
         }
-        Err(MapError::NotConverged { iterations, .. }) => (None, *iterations),
+        Err(MapError::NotConverged { iterations, .. }) => (None, None, iterations),
         // A start, or a matrix, beyond the range of doubles: others may be within.
-        Err(MapError::Minimise(_)) => (None, 0),
-        Err(MapError::Solve(error)) if error.is_of_rounding() => (None, 0),
+        Err(MapError::Minimise(_)) => (None, None, 0),
+        Err(MapError::Solve(ref error)) if error.is_of_rounding() => (None, None, 0),
         Err(_) => return plain,
     };
     let metric = domain.rest_metric(options)?.with_open_corners(&domain.disc, domain.planes.as_ref());
     let left = options.max_iterations.map(|n| n.saturating_sub(spent));
     let repair = Repair { options, domain, metric: &metric, left };
-    let map = match options.boundary {
-        Boundary::Free => repair.free(watch)?,
-        _ => repair.circle(watch)?,
+    let found = match options.boundary {
+        Boundary::Free => repair.free(watch),
+        _ => repair.circle(watch),
     };
-    Ok(Map { iterations: map.iterations + spent, repaired: true, plain_folded: folded, ..map })
+    let found = found.map(|map| Map { iterations: map.iterations + spent, plain_folded: folded, ..map });
+    match kept {
+        None => Ok(Map { repaired: true, ..found? }),
+        Some(plain) => Ok(found.ok().filter(|map| is_better(options, domain, map, &plain)).unwrap_or(plain)),
+    }
+}
+
+/// Whether a map is accepted and has less shear than another.
+fn is_better(options: &MapOptions, domain: &Domain, map: &Map, other: &Map) -> bool {
+    let shear = |map: &Map| {
+        let faces = face_maps(&domain.disc, &domain.graph, &Image::of_disc(&map.z));
+        faces.iter().map(FaceMap::quasi_conformal).sum::<f64>()
+    };
+    accepts(options, &domain.validity(&map.z[..domain.disc.positions.len()])) && shear(map) < shear(other)
 }
 
 /// Whether a map is as one-to-one as is asked for: free maps may overlap, unless otherwise said.
@@ -113,10 +128,12 @@ impl Repair<'_> {
         Rest { graph: &self.domain.graph, metric: self.metric, weight, held }
     }
 
-    /// MIPS, times `unit`.
+    /// MIPS as the mean over the faces, whatever their areas, times `unit`: that is what the mean of σ1/σ2 sees. Weighted by area the faces
+    /// of fine parts hardly count, and theirs is the shear.
     fn mips(&self, unit: f64) -> Result<Terms, MapError> {
-        let mips = Mips::new(self.rest(&[], Weight::Integral))?;
-        Ok(vec![(unit, Box::new(mips))])
+        let mips = Mips::new(self.rest(&[], Weight::Unit))?;
+        let faces: f64 = self.metric.triangles.iter().map(|t| t.share).sum();
+        Ok(vec![(unit / faces, Box::new(mips))])
     }
 
     fn objective(&self, terms: Terms, freedoms: Freedoms) -> Objective {
@@ -181,10 +198,5 @@ impl Repair<'_> {
             iterations: stage.iterations,
             ..Map::solved(BACKEND, stage.z, fixed, None)
         }
-    }
-
-    /// Whether to go on to the next stage: it is of no use where this one has not come to its end.
-    fn goes_on(&self, stage: &Stage) -> bool {
-        matches!(stage.status, Status::Converged | Status::Precision) && self.left.is_none_or(|n| stage.iterations < n)
     }
 }
