@@ -29,7 +29,7 @@ impl Shape {
 /// # Errors
 /// Neighbours on the boundary that coincide at rest; too few mesh vertices for the corners of the shape.
 pub fn on_shape(graph: &QuadGraph, shape: Shape) -> Result<Fixed, ConstraintError> {
-    let arc = arc_lengths(graph)?;
+    let arc = arc_lengths(graph, &graph.boundary_length)?;
     let length = arc[arc.len() - 1];
     let mut fixed = Fixed::default();
     match shape {
@@ -57,7 +57,29 @@ pub fn on_shape(graph: &QuadGraph, shape: Shape) -> Result<Fixed, ConstraintErro
 /// # Errors
 /// Neighbours on the boundary that coincide at rest.
 pub fn on_circle(graph: &QuadGraph, radius: f64, anchors: &[(usize, f64)]) -> Result<Fixed, ConstraintError> {
-    let arc = arc_lengths(graph)?;
+    Ok(by_arc(graph, &arc_lengths(graph, &graph.boundary_length)?, radius, anchors))
+}
+
+/// The same on the unit circle, from an angle of 0, with neighbours no nearer than a share [`APART`] of their mean distance: a boundary on
+/// which every vertex has a place of its own, even where rounding would put edges of different lengths on each other.
+///
+/// # Errors
+/// An edge without length.
+pub fn on_circle_apart(graph: &QuadGraph) -> Result<Fixed, ConstraintError> {
+    let n = graph.boundary.len();
+    if let Some(k) = (0..n).find(|&k| graph.boundary_length[k] <= 0.0) {
+        return Err(ConstraintError::NoArcLength(graph.boundary[k], graph.boundary[(k + 1) % n]));
+    }
+    let least = APART * graph.perimeter() / n as f64;
+    let lengths: Vec<f64> = graph.boundary_length.iter().map(|l| l.max(least)).collect();
+    Ok(by_arc(graph, &arc_lengths(graph, &lengths)?, 1.0, &[(0, 0.0)]))
+}
+
+/// Of 10⁶ vertices neighbours are then 1e-13 from each other, a thousand times what doubles tell apart.
+const APART: f64 = 1e-8;
+
+/// Angles by arc length (`nb + 1`) between anchors.
+fn by_arc(graph: &QuadGraph, arc: &[f64], radius: f64, anchors: &[(usize, f64)]) -> Fixed {
     let n = graph.boundary.len();
     let mut fixed = Fixed::default();
     for (i, &(first, angle)) in anchors.iter().enumerate() {
@@ -71,14 +93,14 @@ pub fn on_circle(graph: &QuadGraph, radius: f64, anchors: &[(usize, f64)]) -> Re
             fixed.hold(graph.boundary[k % n], Complex64::from_polar(radius, angle + t * (last_angle - angle)));
         }
     }
-    Ok(fixed)
+    fixed
 }
 
 /// Arc length from `boundary[0]` to each boundary vertex, and the whole (`nb + 1`).
-fn arc_lengths(graph: &QuadGraph) -> Result<Vec<f64>, ConstraintError> {
+fn arc_lengths(graph: &QuadGraph, lengths: &[f64]) -> Result<Vec<f64>, ConstraintError> {
     let mut arc = Vec::with_capacity(graph.boundary.len() + 1);
     let mut length = 0.0;
-    for (k, &l) in graph.boundary_length.iter().enumerate() {
+    for (k, &l) in lengths.iter().enumerate() {
         arc.push(length);
         length += l;
         if length <= arc[k] {

@@ -5,7 +5,7 @@ mod elimination;
 mod freedoms;
 mod gauge;
 
-pub use boundary::{Shape, on_circle, on_shape};
+pub use boundary::{Shape, on_circle, on_circle_apart, on_shape};
 pub use elimination::Elimination;
 pub use freedoms::Freedoms;
 pub use gauge::{float_white_back, hold_gauge, spread_points, turn_back};

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 
 use super::{Repair, Stage};
 use crate::backend::Observer;
-use crate::constraint::{Fixed, Freedoms, on_circle};
+use crate::constraint::{Fixed, Freedoms, on_circle_apart};
 use crate::map::{Exactly, Map, MapError};
 
 impl Repair<'_> {
@@ -19,7 +19,7 @@ impl Repair<'_> {
     /// The lowest MIPS on the disc. One boundary point is held: with three, long parts of the surface converge far more slowly.
     pub(super) fn least_shear(&self, watch: &mut dyn Observer) -> Result<(Stage, Fixed), MapError> {
         let graph = &self.domain.graph;
-        let whole = on_circle(graph, 1.0, &[(0, 0.0)])?;
+        let whole = on_circle_apart(graph)?;
         let mut fixed = Fixed::default();
         fixed.hold(graph.boundary[0], Complex64::ONE);
         // MIPS does not see dual vertices.

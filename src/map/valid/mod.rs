@@ -14,7 +14,7 @@ use num_complex::Complex64;
 use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
 use crate::backend::nonlinear::Newton;
 use crate::backend::{MinimiseError, Minimiser, Observer, Status, StopRule};
-use crate::constraint::{Fixed, Freedoms};
+use crate::constraint::{ConstraintError, Fixed, Freedoms};
 use crate::distortion::{FaceMap, Image, Validity, face_maps};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Mips, Rest};
@@ -60,7 +60,7 @@ pub(super) fn kept_or_replaced(
         }
         Err(MapError::NotConverged { iterations, .. }) => (None, None, iterations),
         // A start, or a matrix, beyond the range of doubles: others may be within.
-        Err(MapError::Minimise(_)) => (None, None, 0),
+        Err(MapError::Minimise(_) | MapError::Constraint(ConstraintError::NoArcLength(..))) => (None, None, 0),
         Err(MapError::Solve(ref error)) if error.is_of_rounding() => (None, None, 0),
         Err(_) => return plain,
     };
@@ -82,7 +82,7 @@ pub(super) fn kept_or_replaced(
 fn is_better(options: &MapOptions, domain: &Domain, map: &Map, other: &Map) -> bool {
     let shear = |map: &Map| {
         let faces = face_maps(&domain.disc, &domain.graph, &Image::of_disc(&map.z));
-        faces.iter().map(FaceMap::quasi_conformal).sum::<f64>()
+        faces.iter().filter(|face| face.has_shape()).map(FaceMap::quasi_conformal).sum::<f64>()
     };
     accepts(options, &domain.validity(&map.z[..domain.disc.positions.len()])) && shear(map) < shear(other)
 }
