@@ -31,6 +31,8 @@ pub enum Shape {
     Needles,
     /// The same with random vertices next to the middle of the edge across a face: caps of aspects down to 1e-12.
     Caps,
+    /// The same with random vertices on one of their neighbours, or on the edge across a face: faces without area.
+    Collapsed,
 }
 
 /// A random disc of about `size` triangles, or of three times as many quads, one in each corner of a triangle.
@@ -109,18 +111,23 @@ fn place(disc: &mut Surface, columns: usize, shape: Shape, random: &mut Random) 
         let factor = 10f64.powf(4.5 * (1.0 + random.real()));
         disc.positions.iter_mut().for_each(|p| p[0] *= factor);
     }
-    if !matches!(shape, Shape::Needles | Shape::Caps) {
+    if !matches!(shape, Shape::Needles | Shape::Caps | Shape::Collapsed) {
         return;
     }
     for _ in 0..disc.faces.len() / 8 + 1 {
         let f = disc.faces.get(random.below(disc.faces.len())).to_vec();
         let k = random.below(3);
         let [a, b, c] = [0, 1, 2].map(|i| disc.positions[f[(k + i) % 3] as usize]);
-        let gap = 10f64.powf(-6.0 * (1.0 + random.real()));
+        let gap = if shape == Shape::Collapsed { 0.0 } else { 10f64.powf(-6.0 * (1.0 + random.real())) };
         let off = random.vector().map(|x| gap * x);
-        let share = if shape == Shape::Needles { 0.0 } else { 0.5 + 0.4 * random.real() };
+        let share = match shape {
+            Shape::Needles => 0.0,
+            Shape::Collapsed if random.below(2) == 0 => 0.0,
+            _ => 0.5 + 0.4 * random.real(),
+        };
         // Far enough from each other that no face loses its area to rounding.
-        disc.positions[f[(k + 2) % 3] as usize] = match crate::common::distance(a, b) > 0.1 {
+        disc.positions[f[(k + 2) % 3] as usize] = match shape == Shape::Collapsed || crate::common::distance(a, b) > 0.1
+        {
             true => [0, 1, 2].map(|i| a[i] + share * (b[i] - a[i]) + off[i]),
             false => c,
         };

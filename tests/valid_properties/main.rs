@@ -14,8 +14,8 @@ use proptest::test_runner::RngSeed;
 use riemap::backend::Silent;
 use riemap::input::Input;
 use riemap::map::{Boundary, MapError, MapOptions, Mapped, run};
-use riemap::surface::Surface;
 use riemap::surface::diagnosis::{Diagnosis, Finding};
+use riemap::surface::{Surface, Surrogates};
 
 /// Cases of each property: more of them where `RIEMAP_CASES` says so, from another seed in each run where `RIEMAP_SEED` does.
 fn config(cases: u32) -> ProptestConfig {
@@ -29,9 +29,9 @@ fn config(cases: u32) -> ProptestConfig {
     }
 }
 
-fn mapped(s: &Surface, boundary: Boundary, what: &str) -> Result<Mapped, MapError> {
+fn mapped(s: &Surface, boundary: Boundary, surrogate: Option<f64>, what: &str) -> Result<Mapped, MapError> {
     // Valid at any time: few iterations show as much as many.
-    let options = MapOptions { boundary, max_iterations: Some(60), ..MapOptions::default() };
+    let options = MapOptions { boundary, surrogate, max_iterations: Some(60), ..MapOptions::default() };
     run(&Input::of(what.to_owned(), s.clone()), &options, &mut Silent)
 }
 
@@ -43,18 +43,16 @@ fn is_proper(s: &Surface) -> bool {
 
 fn check(seed: u64, size: usize, topology: Topology, shape: Shape, quads: bool) -> Result<(), TestCaseError> {
     let s = random_disc(seed, size, topology, shape, quads);
-    prop_assume!(is_proper(&s));
+    let surrogate = (shape == Shape::Collapsed).then_some(Surrogates::HEIGHT);
+    prop_assume!(surrogate.is_some() || is_proper(&s));
     let what = format!("random_disc({seed}, {size}, Topology::{topology:?}, Shape::{shape:?}, {quads})");
     for boundary in [Boundary::Circle, Boundary::Free] {
-        let mapped = mapped(&s, boundary, &what)
+        let mapped = mapped(&s, boundary, surrogate, &what)
             .map_err(|error| TestCaseError::fail(format!("{what}, {boundary:?}: {error}")))?;
-        // The angles at a boundary vertex may be more than a turn at rest; a free map then has them so too.
-        let on_boundary =
-            |v: &u32| mapped.domain.disc.boundary.iter().any(|&w| mapped.domain.disc.source_vertex[w as usize] == *v);
         let in_order = !mapped.map.repaired || mapped.distortion.boundary_out_of_order == Some(0);
         let fine = match boundary {
             Boundary::Circle => mapped.validity.is_one_to_one() && in_order,
-            _ => mapped.validity.folded.is_empty() && mapped.validity.wound.iter().all(on_boundary),
+            _ => mapped.validity.is_locally_one_to_one(),
         };
         prop_assert!(fine, "{what}, {boundary:?}: {:?}", mapped.validity);
         prop_assert!(mapped.map.z.iter().all(|z| z.is_finite()), "{what}, {boundary:?}: not finite");
@@ -87,6 +85,33 @@ proptest! {
     #[test]
     fn no_disc_of_quads_folds(seed in any::<u64>(), size in 4usize..100, topology in topologies(), shape in shapes()) {
         check(seed, size, topology, shape, true)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(config(40))]
+
+    #[test]
+    fn no_disc_with_faces_without_area_folds(
+        seed in any::<u64>(), size in 4usize..200, topology in topologies(), quads in any::<bool>()
+    ) {
+        check(seed, size, topology, Shape::Collapsed, quads)?;
+    }
+}
+
+/// What longer runs found.
+#[test]
+fn no_disc_folds_of_those_that_did_or_were_refused() {
+    for (seed, size, topology, shape, quads) in [
+        // The linear start's residual was above 1e-8.
+        (12137337280738581051, 75, Topology::Wheel, Shape::Needles, true),
+        // Three points on one half of the circle were said to be out of order.
+        (1908492559318438972, 36, Topology::Stacked, Shape::Terrible, false),
+        (12019320932988218614, 6, Topology::Grid, Shape::Caps, true),
+        // Boundary edges of 1e-16 of the whole.
+        (16079871699280, 3752, Topology::Wheel, Shape::Needles, false),
+    ] {
+        check(seed, size, topology, shape, quads).unwrap();
     }
 }
 
