@@ -35,7 +35,7 @@
 //! | [`peer`] | maps of other programs, measured as ours are |
 //! | [`mod@bench`] | speed against other programs |
 //! | [`experiment`] | configurations, runs, tables, plots |
-//! | [`predicate`], [`polygon`], [`median`](mod@median), [`process`] | exact signs of areas; whether a polygon is simple; the middle of numbers; processes with a time limit |
+//! | [`predicate`], [`polygon`], [`moebius`], [`median`](mod@median), [`process`] | exact signs of areas; whether a polygon is simple; maps of the disc to itself; the middle of numbers; processes with a time limit |
 //! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
 //!
 //! # One map
@@ -82,6 +82,7 @@ pub mod io;
 pub mod libigl;
 pub mod map;
 pub mod median;
+pub mod moebius;
 pub mod objective;
 pub mod peer;
 pub mod periodic;

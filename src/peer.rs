@@ -1,8 +1,6 @@
 //! Maps of other programs, put where a map of ours would be, so that the same code measures both.
 
-mod moebius;
-
-pub use moebius::{Moebius, MoebiusError};
+pub use crate::moebius::{Moebius, MoebiusError};
 
 use num_complex::Complex64;
 

@@ -227,7 +227,7 @@ impl MapOptions {
             (false, _) => {
                 let plain = nonlinear::minimise(self, &expression, domain, exact, watch);
                 match self.promises_valid() {
-                    true => valid::kept_or_replaced(self, domain, plain, watch),
+                    true => valid::kept_or_replaced(self, domain, exact, plain, watch),
                     false => plain,
                 }
             }

@@ -173,7 +173,8 @@ pub(super) struct Anchors {
     pub exact: bool,
 }
 
-fn anchors(
+/// Which points of a circle map are held, and where.
+pub(super) fn anchors(
     options: &MapOptions,
     expression: &Expression,
     domain: &Domain,

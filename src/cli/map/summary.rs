@@ -49,6 +49,13 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
             "riemap: note: the plain map {was}, and a valid one is in its place (--valid off keeps the plain one)"
         );
     }
+    if map.repaired && map.on_circle && options.weights.is_none() && map.fixed.len() < options.fix {
+        eprintln!(
+            "riemap: note: one boundary point is where it was to be, and not {}: a map with these in their places has parts that \
+             are too small for double precision",
+            options.fix
+        );
+    }
     let mut help: Vec<&str> = Vec::new();
     help.extend(mapped.domain.is_of_triangles().then_some("another --dual"));
     help.extend(mapped.domain.planes.is_some().then_some("other --normals"));

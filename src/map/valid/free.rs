@@ -100,11 +100,6 @@ impl Repair<'_> {
         terms.push((coefficient, Box::new(Metric::mesh_boundary_edges(self.rest(&[], Weight::Integral)))));
         Ok(self.objective(terms, Freedoms::new(self.domain.graph.vertices, held)))
     }
-
-    /// Whether nothing more is to be done.
-    fn is_over(&self, stage: &Stage) -> bool {
-        stage.status == Status::Interrupted || self.left.is_some_and(|n| stage.iterations >= n)
-    }
 }
 
 /// Whether far parts of a map may lie on each other.

@@ -11,6 +11,7 @@ pub(super) use hopeless::unless_hopeless;
 
 use num_complex::Complex64;
 
+use super::nonlinear::{self, Anchors};
 use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
 use crate::backend::nonlinear::Newton;
 use crate::backend::{MinimiseError, Minimiser, Observer, Status, StopRule};
@@ -45,6 +46,7 @@ impl MapOptions {
 pub(super) fn kept_or_replaced(
     options: &MapOptions,
     domain: &Domain,
+    exact: Option<&[[f64; 2]]>,
     plain: Result<Map, MapError>,
     watch: &mut dyn Observer,
 ) -> Result<Map, MapError> {
@@ -66,7 +68,12 @@ pub(super) fn kept_or_replaced(
     };
     let metric = domain.rest_metric(options)?.with_open_corners(&domain.disc, domain.planes.as_ref());
     let left = options.max_iterations.map(|n| n.saturating_sub(spent));
-    let repair = Repair { options, domain, metric: &metric, left };
+    let anchors = match options.boundary {
+        Boundary::Free => Anchors::default(),
+        // Where arc length does not tell places apart there are none.
+        _ => nonlinear::anchors(options, &options.expression(), domain, exact).unwrap_or_default(),
+    };
+    let repair = Repair { options, domain, metric: &metric, left, anchors };
     let found = match options.boundary {
         Boundary::Free => repair.free(watch),
         _ => repair.circle(watch),
@@ -102,6 +109,8 @@ struct Repair<'a> {
     metric: &'a RestMetric,
     /// Iterations that are left, where there is a limit.
     left: Option<usize>,
+    /// Circle maps: the points that the plain map holds.
+    anchors: Anchors,
 }
 
 /// A valid map on its way, and what is known of it.
@@ -186,6 +195,11 @@ impl Repair<'_> {
     /// Whether the exact check accepts the map that a stage has reached.
     fn accepts(&self, stage: &Stage) -> bool {
         accepts(self.options, &self.domain.validity(&stage.z[..self.domain.disc.positions.len()]))
+    }
+
+    /// Whether nothing more is to be done.
+    fn is_over(&self, stage: &Stage) -> bool {
+        stage.status == Status::Interrupted || self.left.is_some_and(|n| stage.iterations >= n)
     }
 
     /// The map that a stage has reached.

@@ -1,3 +1,5 @@
+//! Möbius maps, of the disc to itself above all.
+
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
