@@ -72,6 +72,40 @@ fn garbage_is_refused_by_its_line() {
 }
 
 #[test]
+fn faces_without_area_are_refused_with_advice_and_mapped_by_a_surrogate() {
+    let shell = Shell::new();
+    // A square with a vertex in the middle of a side of its diagonal, and one more at the place of a corner.
+    let mesh = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nv 1 1 0\nf 1 2 3\nf 1 3 5\nf 1 5 4\nf 5 3 4\nf 2 6 3\n";
+    shell.write("m.obj", mesh);
+    let message = shell.refused(&["map", "m.obj", "-o", "o.obj", "--report", "r.json"]);
+    assert!(message.contains("2 faces have no area: face 1") && message.contains("--surrogate"), "{message}");
+    assert!(shell.done(&["info", "m.obj"]).contains("--surrogate"));
+    for height in ["--surrogate", "--surrogate=0.3"] {
+        let ran = shell.run(&["map", "m.obj", height, "-o", "o.obj", "--report", "r.json"]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        assert!(ran.err.contains("2 faces have no area, face 1 the first"), "{}", ran.err);
+        let written = shell.read("o.obj");
+        let positions =
+            |text: &str| text.lines().filter(|l| l.starts_with("v ")).map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(positions(&written), positions(mesh));
+        let uv = texture(&written);
+        let mut places: Vec<[u64; 2]> = uv.iter().map(|p| p.map(f64::to_bits)).collect();
+        places.sort_unstable();
+        places.dedup();
+        assert_eq!(places.len(), 6, "vertices at one place in the plane");
+        let report: serde_json::Value = serde_json::from_str(&shell.read("r.json")).unwrap();
+        assert_eq!(report["solver"]["valid"], true);
+        let surrogates = &report["input"]["surrogates"];
+        assert_eq!((&surrogates["count"], &surrogates["faces"]), (&2.into(), &serde_json::json!([1, 4])));
+    }
+    for wrong in ["--surrogate=0", "--surrogate=2", "--surrogate=x", "--surrogate=nan"] {
+        assert_eq!(shell.run(&["map", "m.obj", wrong]).code, 2, "{wrong}");
+    }
+    shell.write("w.obj", hill(4, 1.0, false));
+    assert!(shell.run(&["map", "w.obj", "--surrogate"]).err.contains("no effect"));
+}
+
+#[test]
 fn slivers_are_mapped_and_what_folds_is_warned_of() {
     let shell = Shell::new();
     // A strip of 38 triangles, 1e9 times as long as wide.

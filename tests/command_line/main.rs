@@ -76,7 +76,7 @@ fn every_command_has_help() {
         assert!(shell.done(&["--help"]).contains(command));
         assert!(shell.done(&[command, "--help"]).contains(&format!("riemap {command}")));
     }
-    let options = "--output --boundary --energy --fix --keep-order --start --tolerance --max-iterations --trace --shape --positions --pin --hold --weights --valid --weight --dual --boundary-dual --rho --solver \
+    let options = "--output --boundary --energy --fix --keep-order --start --tolerance --max-iterations --trace --shape --positions --pin --hold --weights --valid --surrogate --weight --dual --boundary-dual --rho --solver \
                    --system --report --picture --texture --quiet";
     let help = shell.done(&["map", "--help"]);
     for option in options.split(' ') {

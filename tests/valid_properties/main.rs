@@ -110,6 +110,7 @@ fn no_disc_folds_of_those_that_did_or_were_refused() {
         (12019320932988218614, 6, Topology::Grid, Shape::Caps, true),
         // Boundary edges of 1e-16 of the whole.
         (16079871699280, 3752, Topology::Wheel, Shape::Needles, false),
+        (932803681638657480, 1186, Topology::Wheel, Shape::Needles, true),
     ] {
         check(seed, size, topology, shape, quads).unwrap();
     }
