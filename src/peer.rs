@@ -9,6 +9,7 @@ use crate::constraint::{Fixed, spread_points};
 use crate::input::Input;
 use crate::libigl::{Environment, LibiglError, harmonic, lscm, slim};
 use crate::map::{Boundary, Domain, Map, MapError, MapOptions, Mapped, run};
+use crate::surface::cut::Opening;
 
 /// A function of another program.
 pub struct Peer {
@@ -108,7 +109,7 @@ pub enum PeerError {
 }
 
 impl Peer {
-    /// The peer's map of `input`, measured, and its CPU seconds. Dual vertices, which it knows nothing of, are put at the
+    /// The peer's map of `input`, opened to a disc as `opening` says, measured, and its CPU seconds. Dual vertices, which it knows nothing of, are put at the
     /// barycentres of the image faces and the midpoints of the image's boundary edges.
     ///
     /// # Errors
@@ -116,6 +117,7 @@ impl Peer {
     pub fn map(
         &self,
         input: &Input,
+        opening: Opening,
         libigl: &Environment,
         watch: &mut dyn Observer,
     ) -> Result<(Mapped, f64), PeerError> {
@@ -124,7 +126,8 @@ impl Peer {
             return Err(PeerError::NotTriangles { corners });
         }
         // Opens the surface and lays its boundary on the circle.
-        let options = MapOptions { boundary: Boundary::Fixed, ..MapOptions::default() };
+        let Opening { cut, remove_faces, fill_holes } = opening;
+        let options = MapOptions { boundary: Boundary::Fixed, cut, remove_faces, fill_holes, ..MapOptions::default() };
         let mapped = run(input, &options, watch)?;
         let Domain { disc, graph, .. } = &mapped.domain;
         let held: Vec<u32> = match self.given {

@@ -5,13 +5,18 @@
 use riemap::backend::Silent;
 use riemap::input::Input;
 use riemap::libigl::{Environment, LibiglError, lscm};
-use riemap::map::{Boundary, MapOptions, Mapped, run};
+use riemap::map::{Boundary, MapOptions, Mapped, Valid, run};
 use riemap::peer::{PeerError, peer};
+use riemap::surface::cut::Opening;
 
 fn map(name: &str, source: &str) -> Mapped {
+    map_opened(name, source, Opening::default())
+}
+
+fn map_opened(name: &str, source: &str, opening: Opening) -> Mapped {
     let libigl = Environment::ensure().unwrap_or_else(|error| panic!("{error}"));
     let input = Input::open(source).unwrap();
-    peer(name).unwrap().map(&input, &libigl, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}")).0
+    peer(name).unwrap().map(&input, opening, &libigl, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}")).0
 }
 
 #[test]
@@ -43,10 +48,29 @@ fn the_harmonic_map_is_ours_with_circumcentres() {
 }
 
 #[test]
+fn a_peer_maps_the_same_disc_that_is_cut_out_of_a_closed_surface() {
+    let source = "torus?R=2&r=0.8&n=12&mesh=triangle";
+    let theirs = map_opened("libigl-harmonic", source, Opening { cut: true, ..Opening::default() });
+    let options = MapOptions {
+        boundary: Boundary::Fixed,
+        weights: Some("cotan".to_owned()),
+        cut: true,
+        valid: Valid::Off,
+        ..MapOptions::default()
+    };
+    let ours = run(&Input::open(source).unwrap(), &options, &mut Silent).unwrap();
+    let primal = ours.domain.graph.primal;
+    let farthest = (0..primal).map(|v| (ours.map.z[v] - theirs.map.z[v]).norm()).fold(0.0, f64::max);
+    // As in the cotan equivalence.
+    assert!(farthest < 1e-9, "{farthest:e}");
+    assert_eq!(ours.cut, theirs.cut);
+}
+
+#[test]
 fn what_a_peer_cannot_map_is_refused() {
     let libigl = Environment::ensure().unwrap_or_else(|error| panic!("{error}"));
     let quads = Input::open("sphere?n=8").unwrap();
-    let refused = peer("libigl-lscm").unwrap().map(&quads, &libigl, &mut Silent);
+    let refused = peer("libigl-lscm").unwrap().map(&quads, Opening::default(), &libigl, &mut Silent);
     assert!(matches!(refused, Err(PeerError::NotTriangles { corners: 4 })));
     let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let refused = lscm(&libigl, &triangle, &[[0, 1, 2]], &[0], &[[0.0, 0.0]]);

@@ -82,7 +82,7 @@ impl Task for PeerTask {
         let (mapped, weight, seconds) = match peer(&self.method) {
             Some(peer) => {
                 let libigl = Environment::with(&Settings::from_variables())?;
-                let (mapped, seconds) = peer.map(&input, &libigl, &mut watch)?;
+                let (mapped, seconds) = peer.map(&input, self.options.opening(), &libigl, &mut watch)?;
                 versions.insert("libigl".to_owned(), libigl.versions.libigl.clone());
                 (mapped, None, seconds)
             }

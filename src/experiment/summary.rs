@@ -54,7 +54,8 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
     for (name, spec) in config.plots.iter().filter(|_| finished) {
         for format in [Format::Png, Format::Svg] {
             let bytes = match spec.plot(&records).render(format) {
-                Err(FigureError::NoPoints) if !complete => continue,
+                // Of runs that may fail, or of which `--set` has made a part, there may be none.
+                Err(FigureError::NoPoints) if !complete || config.may_fail => continue,
                 Err(source) => {
                     return Err(ResultsError::Plot { config: config.path.clone(), plot: name.clone(), source });
                 }

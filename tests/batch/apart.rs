@@ -36,8 +36,12 @@ fn a_folder_takes_the_place_of_the_swept_sources() {
     let work = folder();
     let study = "time-limit = 30\nmay-fail = true\n[surface]\nsource = \"plane\"\n[sweep]\n\"map.boundary\" = [\"free\"]\n\
         \"surface.source\" = [\"plane\", \"sphere\"]\n[table]\ncolumns = [[\"result.input.faces\", \"faces\"]]\n\
-        [groups]\nby = [\"config.map.boundary\"]\ncolumns = [{ key = \"result.solver.valid\", take = \"count\", label = \"valid\" }]\n";
+        [groups]\nby = [\"config.map.boundary\"]\ncolumns = [{ key = \"result.solver.valid\", take = \"count\", label = \"valid\" }]\n\
+        [plots.circle]\ntitle = \"\"\nonly = { \"config.map.boundary\" = \"circle\" }\n\
+        x = { key = \"result.input.faces\", label = \"\" }\ny = { label = \"\" }\n\
+        series = [{ y = \"result.distortion.flipped\", label = \"\" }]\n";
     fs::write(work.path().join("study.toml"), study).unwrap();
+    // A plot of maps that are not made is left out.
     let set = format!("folder={}", meshes.path().display());
     let (code, text) = riemap(work.path(), &["run", "study.toml", "--set", &set], None);
     // The broken one has a record, too, and is no reason to complain.
