@@ -287,3 +287,42 @@ fn a_flat_mesh_held_where_it_lies_keeps_its_place_under_metric_energies() {
     let uv = shell.uv("m.obj", &["--boundary", "fixed", "--positions", "places.txt", "--energy", "H + L"]);
     assert!(distance(&uv, &positions) < 1e-10);
 }
+
+#[test]
+fn what_valid_maps_are_promised_for_is_said_where_they_are_not() {
+    let shell = Shell::new();
+    shell.write("m.obj", hill(5, 1.0, false));
+    shell.write("l.txt", format!("factors\n{}", "1\n".repeat(16)));
+    let free = ["--boundary", "free"];
+    let folds = "rough?n=12&height=2&mesh=delaunay";
+    // The surface, the options, what is said of them; nothing where they do what they say.
+    for (surface, options, note) in [
+        ("m.obj", &["--valid", "auto"][..], ""),
+        ("m.obj", &["--valid", "best-qc"], ""),
+        ("m.obj", &["--valid", "off"], ""),
+        ("m.obj", &["--valid", "one-to-one"], "--valid one-to-one says no more than auto"),
+        ("m.obj", &[&free[..], &["--valid", "one-to-one"]].concat(), ""),
+        ("m.obj", &[&free[..], &["--valid", "one-to-one", "--energy", "MIPS"]].concat(), "minimum of --energy"),
+        ("m.obj", &["--energy", "H + C", "--valid", "off"], ""),
+        ("m.obj", &["--pin", "0=1,0", "--valid", "auto"], "--valid has no effect beside pins"),
+        (
+            "m.obj",
+            &[&free[..], &["--boundary-lengths", "l.txt", "--valid", "auto"]].concat(),
+            "beside --boundary-lengths",
+        ),
+        ("m.obj", &["--boundary", "fixed", "--valid", "auto"], "--valid has no effect on a fixed boundary"),
+        ("m.obj", &["--boundary", "fixed", "--weights", "uniform", "--valid", "auto"], ""),
+        ("torus?n=9", &["--boundary", "periodic", "--valid", "auto"], "--valid has no effect: nothing takes the place"),
+        ("digital-cap?R=5", &["--valid", "auto"], ""),
+        ("m.obj", &["--keep-order"], ""),
+        (folds, &[], ""),
+        (folds, &["--fix", "2"], ""),
+        (folds, &["--keep-order"], "--keep-order has no effect"),
+        (folds, &["--solver", "reduced"], "--solver has no effect"),
+    ] {
+        let ran = shell.run(&[&["map", surface, "--quiet"], options].concat());
+        assert_eq!(ran.code, 0, "{surface} {options:?}: {}", ran.err);
+        let said = ran.err.lines().any(|line| line.contains(if note.is_empty() { "no effect" } else { note }));
+        assert_eq!(said, !note.is_empty(), "{surface} {options:?}: {}", ran.err);
+    }
+}

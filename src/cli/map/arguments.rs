@@ -72,8 +72,8 @@ pub struct Arguments {
     /// A circle or free map that folds is replaced by a valid one of little shear (auto), or one that does not, too, where the
     /// other has less shear (best-qc). Free maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an
     /// --energy or pins of one's own do
-    #[arg(long, default_value = "auto", value_parser = by_name::<Valid>)]
-    pub(super) valid: Valid,
+    #[arg(long, value_parser = by_name::<Valid>)]
+    pub(super) valid: Option<Valid>,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper [default: 3]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=3))]
     pub(super) fix: Option<u8>,
@@ -219,13 +219,52 @@ pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped
             "--tiling has no effect on .glb: its checkerboard has the periods already",
         ),
     ];
-    idle.into_iter().filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()
+    let of_valid = valid_without_effect(arguments, options, mapped.map.repaired);
+    idle.into_iter().chain(of_valid).filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()
 }
 
 /// Parses the height of a surrogate.
 fn height(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|h| *h > 0.0 && *h <= 1.0);
     number.ok_or_else(|| "expected a number above 0, at most 1".to_owned())
+}
+
+/// What of this concerns valid maps: where none is promised, and what one that is in the place of the plain map does not see.
+fn valid_without_effect(arguments: &Arguments, options: &MapOptions, repaired: bool) -> [(bool, &'static str); 8] {
+    let given = arguments.valid.is_some_and(|valid| valid != Valid::Off);
+    let one_to_one = arguments.valid == Some(Valid::OneToOne);
+    let repaired = repaired && options.weights.is_none();
+    [
+        (
+            given && options.energy.is_some(),
+            "--valid has no effect: the map is the minimum of --energy, and checked alone",
+        ),
+        (given && !options.pins.is_empty(), "--valid has no effect beside pins: the map is checked alone"),
+        (
+            given && options.boundary_lengths.is_some(),
+            "--valid has no effect beside --boundary-lengths: the map is checked alone",
+        ),
+        (
+            given && options.boundary == Boundary::Fixed && options.weights.is_none(),
+            "--valid has no effect on a fixed boundary without --weights: the map is checked alone",
+        ),
+        (
+            given && options.boundary == Boundary::Periodic,
+            "--valid has no effect: nothing takes the place of a map with periods, which is checked alone",
+        ),
+        (
+            one_to_one && options.boundary == Boundary::Circle && options.promises_valid(),
+            "--valid one-to-one says no more than auto here: circle maps do not overlap",
+        ),
+        (
+            repaired && options.keep_order,
+            "--keep-order has no effect: the map in the place of the plain one is in order by itself",
+        ),
+        (
+            repaired && options.solver != "auto",
+            "--solver has no effect on the map in the place of the plain one: it is Newton's",
+        ),
+    ]
 }
 
 /// Parses a tolerance.
@@ -273,7 +312,7 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
         pins: arguments.pin.clone(),
         hold: arguments.hold,
         weights: arguments.weights.clone(),
-        valid: arguments.valid,
+        valid: arguments.valid.unwrap_or_default(),
         weight: arguments.weight,
         dual: arguments.dual.clone(),
         boundary_dual: arguments.boundary_dual,
