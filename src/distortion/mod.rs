@@ -10,7 +10,7 @@ pub use crate::predicate::orientation;
 pub use corner::corner_errors;
 pub use image::Image;
 pub use singular::{FaceMap, face_maps};
-pub use validity::Validity;
+pub use validity::{Validity, folded_faces};
 
 use num_complex::Complex64;
 use serde::Serialize;

@@ -25,13 +25,7 @@ impl Validity {
     /// Checks the map that puts corner `c` of the faces of `disc` at `place(c)`, beside the other corners of its face.
     pub fn new(disc: &Disc, place: impl Fn(usize) -> Complex64) -> Self {
         let faces = &disc.faces;
-        let is_folded = |f: &usize| {
-            let corners = faces.corner_range(*f);
-            let n = corners.len();
-            let at = |k: usize| place(corners.start + k % n);
-            (0..if n == 3 { 1 } else { n }).any(|k| orientation(at(k), at(k + 1), at(k + 2)) <= 0.0)
-        };
-        let folded: Vec<u32> = (0..faces.len()).filter(is_folded).map(|f| disc.source_face[f]).collect();
+        let folded: Vec<u32> = folded_faces(disc, &place).into_iter().map(|f| disc.source_face[f as usize]).collect();
         let mut corner_of = vec![0; disc.positions.len()];
         for (c, &v) in faces.corners().iter().enumerate() {
             corner_of[v as usize] = c;
@@ -51,6 +45,17 @@ impl Validity {
     pub fn is_locally_one_to_one(&self) -> bool {
         self.folded.is_empty() && self.wound.is_empty()
     }
+}
+
+/// The faces of `disc` of which some corner does not turn left, ascending, exactly.
+pub fn folded_faces(disc: &Disc, place: impl Fn(usize) -> Complex64) -> Vec<u32> {
+    let is_folded = |f: &u32| {
+        let corners = disc.faces.corner_range(*f as usize);
+        let n = corners.len();
+        let at = |k: usize| place(corners.start + k % n);
+        (0..if n == 3 { 1 } else { n }).any(|k| orientation(at(k), at(k + 1), at(k + 2)) <= 0.0)
+    };
+    (0..disc.faces.len() as u32).filter(is_folded).collect()
 }
 
 /// The vertices around which faces, all positive, lie more than once.

@@ -16,8 +16,12 @@ impl Gaps {
     pub fn new(graph: &QuadGraph) -> Self {
         let n = graph.boundary.len();
         let edges: Vec<[u32; 2]> = (0..n).map(|k| [graph.boundary[k], graph.boundary[(k + 1) % n]]).collect();
-        let perimeter = graph.perimeter();
-        Gaps { edges: Stencils::new(&edges), weight: graph.boundary_length.iter().map(|l| l / perimeter).collect() }
+        Self::of(&edges, &graph.boundary_length, graph.perimeter())
+    }
+
+    /// Of some edges of these lengths, of a boundary of that length in all.
+    pub fn of(edges: &[[u32; 2]], lengths: &[f64], perimeter: f64) -> Self {
+        Gaps { edges: Stencils::new(edges), weight: lengths.iter().map(|l| l / perimeter).collect() }
     }
 
     fn edge(&self, e: usize, z: &[Complex64]) -> Complex64 {

@@ -56,6 +56,13 @@ impl Metric {
         Self::new("Lb", rest.weight, edges)
     }
 
+    /// L' over some edges of these lengths, of a boundary of that length in all.
+    pub fn of_boundary_edges(edges: &[[u32; 2]], lengths: &[f64], perimeter: f64, weight: Weight) -> Self {
+        let radius = perimeter / TAU;
+        let pieces = edges.iter().zip(lengths).map(|(&edge, &length)| (edge, length, radius * length));
+        Self::new("Lb", weight, pieces)
+    }
+
     fn new(name: &'static str, weight: Weight, pieces: impl Iterator<Item = ([u32; 2], f64, f64)>) -> Self {
         let (mut edges, mut length_squared, mut root_weight) = (Vec::new(), Vec::new(), Vec::new());
         for (edge, length, area) in pieces {

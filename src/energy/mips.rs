@@ -1,4 +1,5 @@
-use super::triangle_sum::{Density, Derivatives, TriangleSum};
+use super::Derivatives;
+use super::triangle_sum::{Density, TriangleSum};
 
 /// The density of MIPS, `f = 2|b|²/(|a|² − |b|²) = ½(σ1/σ2 + σ2/σ1) − 1`: 0 where the triangle keeps its shape, the same under similarities
 /// (Hormann, Greiner, *MIPS: an efficient global parametrization method*, 2000).

@@ -4,6 +4,7 @@
 //! Most are sums of squares of residuals, each a polynomial of a few vertices: they implement [`SquareSum`], and have
 //! value, gradient, both Hessians and the exact polynomial along a line from it. MIPS and SD are sums of a [`Density`] over triangles.
 
+mod affine;
 mod authalic;
 mod circle;
 mod clearance;
@@ -20,7 +21,9 @@ mod polynomial;
 mod square_sum;
 mod symmetric_dirichlet;
 mod triangle_sum;
+mod unfolding;
 
+pub use affine::Derivatives;
 pub use authalic::Authalic;
 pub use circle::Circle;
 pub use clearance::Clearance;
@@ -34,7 +37,8 @@ pub use order::Order;
 pub use polynomial::Polynomial;
 pub use square_sum::{LocalMap, SquareSum, jacobian};
 pub use symmetric_dirichlet::{SymmetricDirichlet, SymmetricDirichletDensity};
-pub use triangle_sum::{Density, Derivatives, TriangleSum};
+pub use triangle_sum::{Density, TriangleSum};
+pub use unfolding::Unfolding;
 
 use num_complex::Complex64;
 

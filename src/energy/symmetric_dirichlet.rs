@@ -1,4 +1,5 @@
-use super::triangle_sum::{Density, Derivatives, TriangleSum};
+use super::Derivatives;
+use super::triangle_sum::{Density, TriangleSum};
 
 /// The density of the symmetric Dirichlet energy, `f = σ1² + σ2² + σ1⁻² + σ2⁻² − 4 = 2(|a|² + |b|²)(1 + 1/(|a|² − |b|²)²) − 4`: 0 where the
 /// triangle keeps its lengths (Smith, Schaefer, *Bijective parameterization with free boundaries*, 2015; what SLIM minimises, but for the 4).

@@ -49,7 +49,15 @@ pub(super) fn minimise(
     let anchors = if circle { anchors(options, expression, domain, exact)? } else { Anchors::default() };
     let (after, start) = match reduced::attempt(options, expression, domain, &anchors, watch)? {
         Attempt::Done(map) => return Ok(*map),
-        Attempt::Elsewhere { after, start } => (after, start),
+        Attempt::Elsewhere { after, start, disordered } => {
+            // A valid map that is as near to conformal spares the other backend.
+            if let Some(plain) = disordered.filter(|_| options.promises_valid() && !options.keep_order)
+                && let Some(map) = valid::unfolded(options, domain, &plain, watch)?
+            {
+                return Ok(map);
+            }
+            (after, start)
+        }
     };
     let backend = choose(&options.solver)?;
     let metric = domain.rest_metric(options)?;

@@ -41,6 +41,8 @@ pub(super) enum Attempt {
         after: Option<&'static str>,
         /// A map to start from.
         start: Option<Vec<Complex64>>,
+        /// The map of the reduction, with boundary points out of order.
+        disordered: Option<Box<Map>>,
     },
 }
 
@@ -55,11 +57,11 @@ pub(super) fn attempt(
     let Domain { disc, graph, planes, prescribed } = domain;
     let by_name = options.solver == reduced::NAME;
     if !by_name && options.solver != "auto" {
-        return Ok(Attempt::Elsewhere { after: None, start: None });
+        return Ok(Attempt::Elsewhere { after: None, start: None, disordered: None });
     }
     let elsewhere = |after, start, error: Unreduced| match by_name {
         true => Err(error.into()),
-        false => Ok(Attempt::Elsewhere { after, start }),
+        false => Ok(Attempt::Elsewhere { after, start, disordered: None }),
     };
     let problem = match Kind::of(options, expression) {
         Ok(problem) => problem,
@@ -90,14 +92,12 @@ pub(super) fn attempt(
                 fixed.hold(graph.boundary[k], place);
             }
             let may_go_on = !by_name && (options.keep_order || graph.vertices <= MOST_FOR_SOFT);
-            if may_go_on && out_of_order(&mesh_part(graph, &found.boundary)) > 0 {
-                return Ok(Attempt::Elsewhere { after: Some(AFTER_DISORDER), start: None });
-            }
+            let goes_on = may_go_on && out_of_order(&mesh_part(graph, &found.boundary)) > 0;
             let z = reduction.extend(&found.boundary);
             drop(reduction);
             let h = conformal::value(graph, &conformal::weights(graph, Weight::Integral)?, &z);
             let energies = vec![("H", h), ("C", circle_energy(graph, &fixed, &z))];
-            Ok(Attempt::Done(Box::new(Map {
+            let map = Box::new(Map {
                 total: Some(total(expression, &energies)),
                 energies,
                 gradient_norm: Some(found.gradient_norm),
@@ -113,7 +113,11 @@ pub(super) fn attempt(
                 exactly: Some(Exactly::Circle),
                 repaired: false,
                 plain_folded: None,
-            })))
+            });
+            Ok(match goes_on {
+                true => Attempt::Elsewhere { after: Some(AFTER_DISORDER), start: None, disordered: Some(map) },
+                false => Attempt::Done(map),
+            })
         }
         Kind::Free => {
             let curvature = curvature(disc, graph, planes.as_ref().map(|planes| planes.normals.as_slice()));

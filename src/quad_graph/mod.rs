@@ -15,6 +15,7 @@ pub use periods::{Periods, PeriodsError};
 pub(crate) use tangent::own_normal;
 pub use tangent::{RestSource, TangentPlanes};
 pub use triangles::RestTriangle;
+pub(crate) use triangles::triangles_of_face;
 
 use num_complex::Complex64;
 

@@ -37,29 +37,38 @@ impl RestTriangle {
 /// one, as [`Surrogates`] give it to triangles.
 pub(super) fn rest_triangles(disc: &Disc, planes: Option<&TangentPlanes>, opened: bool) -> Vec<RestTriangle> {
     let mut triangles = Vec::with_capacity(disc.faces.corners().len());
-    for (f, polygon) in disc.faces.iter().enumerate() {
-        let n = polygon.len();
-        let (count, share) = if n == 3 { (1, 1.0) } else { (n, 0.5) };
-        for k in 0..count {
-            let corners = [k, (k + 1) % n, (k + n - 1) % n];
-            let edge = |to: usize| {
-                let d = disc.spoke(f, k, to);
-                planes.map_or(d, |planes| planes.project(f, d))
-            };
-            let (mut ahead, mut behind) = (edge(corners[1]), edge(corners[2]));
-            if opened && n > 3 {
-                [ahead, behind] = Surrogates::opened([ahead, behind]);
-            }
-            let (length_squared, twice_area) = (dot(ahead, ahead), norm(cross(ahead, behind)));
-            triangles.push(RestTriangle {
-                vertices: corners.map(|k| polygon[k]),
-                w: Complex64::new(dot(ahead, behind), twice_area) / length_squared,
-                length: length_squared.sqrt(),
-                area: 0.5 * share * twice_area,
-                share: disc.surrogates.share(f) / count as f64,
-                face: disc.source_face[f],
-            });
-        }
-    }
+    (0..disc.faces.len()).for_each(|f| triangles.extend(triangles_of_face(disc, planes, opened, f)));
     triangles
+}
+
+/// The triangles of face `f`: itself, or the four corners of a quad; `opened` as with all.
+pub(crate) fn triangles_of_face<'a>(
+    disc: &'a Disc,
+    planes: Option<&'a TangentPlanes>,
+    opened: bool,
+    f: usize,
+) -> impl Iterator<Item = RestTriangle> + 'a {
+    let polygon = disc.faces.get(f);
+    let n = polygon.len();
+    let (count, share) = if n == 3 { (1, 1.0) } else { (n, 0.5) };
+    (0..count).map(move |k| {
+        let corners = [k, (k + 1) % n, (k + n - 1) % n];
+        let edge = |to: usize| {
+            let d = disc.spoke(f, k, to);
+            planes.map_or(d, |planes| planes.project(f, d))
+        };
+        let (mut ahead, mut behind) = (edge(corners[1]), edge(corners[2]));
+        if opened && n > 3 {
+            [ahead, behind] = Surrogates::opened([ahead, behind]);
+        }
+        let (length_squared, twice_area) = (dot(ahead, ahead), norm(cross(ahead, behind)));
+        RestTriangle {
+            vertices: corners.map(|k| polygon[k]),
+            w: Complex64::new(dot(ahead, behind), twice_area) / length_squared,
+            length: length_squared.sqrt(),
+            area: 0.5 * share * twice_area,
+            share: disc.surrogates.share(f) / count as f64,
+            face: disc.source_face[f],
+        }
+    })
 }

@@ -6,6 +6,8 @@
 mod circle;
 mod free;
 mod hopeless;
+mod near_folds;
+mod patch;
 
 pub(super) use hopeless::unless_hopeless;
 
@@ -16,7 +18,7 @@ use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
 use crate::backend::nonlinear::Newton;
 use crate::backend::{MinimiseError, Minimiser, Observer, Status, StopRule};
 use crate::constraint::{ConstraintError, Fixed, Freedoms};
-use crate::distortion::{FaceMap, Image, Validity, face_maps};
+use crate::distortion::{FaceMap, Image, Validity, face_maps, folded_faces};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Mips, Rest};
 use crate::objective::{Objective, Terms};
@@ -54,10 +56,19 @@ pub(super) fn kept_or_replaced(
         Ok(map) => {
             let validity = domain.validity(&map.z[..domain.disc.positions.len()]);
             let spent = map.iterations;
-            match accepts(options, &validity) {
-                true if options.valid != Valid::BestQc => return Ok(map),
-                true => (Some(map), None, spent),
-                false => (None, Some(validity.folded.len()), spent),
+            if accepts(options, &validity) {
+                match options.valid {
+                    Valid::BestQc => (Some(map), None, spent),
+                    _ => return Ok(map),
+                }
+            } else {
+                let folded = Some(validity.folded.len());
+                let left = options.max_iterations.map(|n| n.saturating_sub(spent));
+                let (found, more) = near_folds::near_folds(options, domain, &map, left, watch)?;
+                if let Some(found) = found {
+                    return Ok(Map { iterations: spent + more, repaired: true, plain_folded: folded, ..found });
+                }
+                (None, folded, spent + more)
             }
         }
         Err(MapError::NotConverged { iterations, .. }) => (None, None, iterations),
@@ -92,6 +103,20 @@ fn is_better(options: &MapOptions, domain: &Domain, map: &Map, other: &Map) -> b
         faces.iter().filter(|face| face.has_shape()).map(FaceMap::quasi_conformal).sum::<f64>()
     };
     accepts(options, &domain.validity(&map.z[..domain.disc.positions.len()])) && shear(map) < shear(other)
+}
+
+/// The plain map with its folds taken out where they are, if it has boundary points out of order; `None` where that does not do.
+pub(super) fn unfolded(
+    options: &MapOptions,
+    domain: &Domain,
+    plain: &Map,
+    watch: &mut dyn Observer,
+) -> Result<Option<Map>, MapError> {
+    let left = options.max_iterations.map(|n| n.saturating_sub(plain.iterations));
+    let folded = folded_faces(&domain.disc, |c| plain.z[domain.disc.faces.corners()[c] as usize]).len();
+    let (found, spent) = near_folds::near_folds(options, domain, plain, left, watch)?;
+    let iterations = plain.iterations + spent;
+    Ok(found.map(|map| Map { iterations, repaired: true, plain_folded: Some(folded), ..map }))
 }
 
 /// Whether a map is as one-to-one as is asked for: free maps may overlap, unless otherwise said.
@@ -149,8 +174,7 @@ impl Repair<'_> {
         Objective { terms, freedoms, norm: Dirichlet::new(&self.domain.graph, Weight::Integral) }
     }
 
-    /// Goes on from `stage`, by as many iterations as are left. Where parts are so small that rounding folds a face as soon as places
-    /// become unknowns, it stays where it is.
+    /// Goes on from `stage`, by as many iterations as are left.
     fn minimise(&self, objective: &Objective, stage: Stage, watch: &mut dyn Observer) -> Result<Stage, MapError> {
         self.minimise_within(self.most_iterations(), objective, stage, watch)
     }
@@ -163,27 +187,7 @@ impl Repair<'_> {
         stage: Stage,
         watch: &mut dyn Observer,
     ) -> Result<Stage, MapError> {
-        let start = objective.freedoms.restrict(&stage.z);
-        if !objective.value(&start).is_finite() {
-            return Ok(Stage { status: Status::Precision, ..stage });
-        }
-        let left = self.left.map_or(most, |n| most.min(n.saturating_sub(stage.iterations)));
-        // What a step may gain decides: the gradient of a start with parts of the size 1e-20 is no measure.
-        let rule = StopRule { tolerance: f64::MIN_POSITIVE, reference: None, max_iterations: Some(left) };
-        let newton = Newton { smallest_gain: self.options.tolerance };
-        let minimum = match newton.minimise(objective, start, rule, watch) {
-            Err(MinimiseError::StartNotFinite) => return Ok(Stage { status: Status::Precision, ..stage }),
-            minimum => minimum?,
-        };
-        let energies = objective.values(&minimum.y);
-        Ok(Stage {
-            z: objective.freedoms.expand(&minimum.y),
-            total: Some(objective.terms.iter().zip(&energies).map(|((t, _), (_, e))| t * e).sum()),
-            energies,
-            gradient_norm: Some(minimum.gradient_norm),
-            status: minimum.status,
-            iterations: stage.iterations + minimum.iterations,
-        })
+        minimise(objective, stage, Limits { left: self.left, most, gain: self.options.tolerance }, watch)
     }
 
     /// Iterations of one stage at most, if there is no other limit.
@@ -213,4 +217,39 @@ impl Repair<'_> {
             ..Map::solved(BACKEND, stage.z, fixed, None)
         }
     }
+}
+
+/// When a stage ends.
+struct Limits {
+    /// Iterations of all stages, where there is a limit.
+    left: Option<usize>,
+    /// Iterations of this one at most.
+    most: usize,
+    /// The share of the energy that a step must gain.
+    gain: f64,
+}
+
+/// Goes on from `stage`. Where parts are so small that rounding folds a face as soon as places become unknowns, it stays where it is.
+fn minimise(objective: &Objective, stage: Stage, limits: Limits, watch: &mut dyn Observer) -> Result<Stage, MapError> {
+    let start = objective.freedoms.restrict(&stage.z);
+    if !objective.value(&start).is_finite() {
+        return Ok(Stage { status: Status::Precision, ..stage });
+    }
+    let left = limits.left.map_or(limits.most, |n| limits.most.min(n.saturating_sub(stage.iterations)));
+    // What a step may gain decides: the gradient of a start with parts of the size 1e-20 is no measure.
+    let rule = StopRule { tolerance: f64::MIN_POSITIVE, reference: None, max_iterations: Some(left) };
+    let newton = Newton { smallest_gain: limits.gain };
+    let minimum = match newton.minimise(objective, start, rule, watch) {
+        Err(MinimiseError::StartNotFinite) => return Ok(Stage { status: Status::Precision, ..stage }),
+        minimum => minimum?,
+    };
+    let energies = objective.values(&minimum.y);
+    Ok(Stage {
+        z: objective.freedoms.expand(&minimum.y),
+        total: Some(objective.terms.iter().zip(&energies).map(|((t, _), (_, e))| t * e).sum()),
+        energies,
+        gradient_norm: Some(minimum.gradient_norm),
+        status: minimum.status,
+        iterations: stage.iterations + minimum.iterations,
+    })
 }
