@@ -224,8 +224,8 @@ fn mesh_part(graph: &QuadGraph, boundary: &[Complex64]) -> Vec<Complex64> {
     graph.boundary.iter().zip(boundary).filter(|(v, _)| !graph.is_dual(**v)).map(|(_, z)| *z).collect()
 }
 
-/// L', which is rounding.
-fn length_energy(graph: &QuadGraph, z: &[Complex64]) -> f64 {
+/// L'; of maps by the reduction it is rounding.
+pub(super) fn length_energy(graph: &QuadGraph, z: &[Complex64]) -> f64 {
     let n = graph.boundary.len();
     let at = |k: usize| z[graph.boundary[k % n] as usize];
     let terms = graph.boundary_length.iter().enumerate();
@@ -282,8 +282,8 @@ fn pins(
     Ok((held.len() == fixed.len()).then_some(held))
 }
 
-/// C, which is rounding.
-fn circle_energy(graph: &QuadGraph, fixed: &Fixed, z: &[Complex64]) -> f64 {
+/// C; where the boundary is on the circle it is rounding.
+pub(super) fn circle_energy(graph: &QuadGraph, fixed: &Fixed, z: &[Complex64]) -> f64 {
     let n = graph.boundary.len();
     let free = (0..n).filter(|&k| !fixed.holds(graph.boundary[k]));
     let terms = free.map(|k| {

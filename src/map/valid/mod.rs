@@ -6,6 +6,7 @@
 mod circle;
 mod free;
 mod hopeless;
+mod in_order;
 mod near_folds;
 mod patch;
 

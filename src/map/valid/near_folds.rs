@@ -5,13 +5,15 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
+use super::in_order::put_in_order;
 use super::patch::{FacesAt, Patch};
 use super::{Limits, Stage, accepts, minimise};
 use crate::backend::{Observer, Status};
 use crate::constraint::Freedoms;
 use crate::distortion::{Image, face_maps, folded_faces};
-use crate::energy::conformal::{Dirichlet, Weight};
+use crate::energy::conformal::{self, Dirichlet, Weight};
 use crate::energy::{Conformal, Energy, Gaps, Metric, Mips, Unfolding};
+use crate::map::reduced::{circle_energy, length_energy};
 use crate::map::{Boundary, Domain, Exactly, Map, MapError, MapOptions, Outcome, Valid};
 use crate::objective::{Objective, Terms};
 use crate::quad_graph::triangles_of_face;
@@ -116,8 +118,27 @@ pub(super) fn near_folds(
     if !accepts(options, &validity) || shear(domain, &z).1 > LARGEST_SHEAR {
         return Ok((None, spent));
     }
-    let (outcome, gradient_norm) = (Outcome::Minimised(status), Some(squares.sqrt()));
-    Ok((Some(Map { z, backend: BACKEND, outcome, gradient_norm, iterations: spent, ..plain.clone() }), spent))
+    let graph = &domain.graph;
+    let h = conformal::value(graph, &conformal::weights(graph, options.weight)?, &z);
+    let (name, other, exactly) = match options.boundary {
+        Boundary::Circle => ("C", circle_energy(graph, &plain.fixed, &z), plain.exactly),
+        // Boundary edges that have moved may have other lengths.
+        _ => ("Lb", length_energy(graph, &z), None),
+    };
+    let map = Map {
+        z,
+        total: Some(h + other),
+        energies: vec![("H", h), (name, other)],
+        gradient_norm: Some(squares.sqrt()),
+        backend: BACKEND,
+        outcome: Outcome::Minimised(status),
+        iterations: spent,
+        residual: None,
+        smallest_singular_value: None,
+        exactly,
+        ..plain.clone()
+    };
+    Ok((Some(map), spent))
 }
 
 /// The faces in groups that have no vertex in common, each ascending.
@@ -300,33 +321,6 @@ fn scales(patch: &Patch, z: &[Complex64]) -> Result<Vec<f64>, MapError> {
     Ok(triangles.iter().map(|t| t.vertices.map(mean).into_iter().fold(f64::MIN_POSITIVE, f64::max)).collect())
 }
 
-/// Puts the boundary points of the mesh in order: those of each block that no point outside it lies between, by their lengths at rest.
-/// Whether that is possible.
-fn put_in_order(patch: &Patch, z: &mut [Complex64]) -> bool {
-    let (edges, lengths) = (&patch.mesh_edges, &patch.mesh_lengths);
-    // From one vertex that is held to the next.
-    let n = edges.len();
-    let Some(first) = (0..n).find(|&k| patch.held[edges[k][0] as usize]) else { return n == 0 };
-    let mut k = first;
-    while k < first + n {
-        let mut run = vec![edges[k % n][0]];
-        let mut arc = vec![0.0];
-        loop {
-            let (edge, length) = (edges[k % n], lengths[k % n]);
-            k += 1;
-            run.push(edge[1]);
-            arc.push(arc[arc.len() - 1] + length);
-            if patch.held[edge[1] as usize] || k == first + n {
-                break;
-            }
-        }
-        if !order_run(&run, &arc, z) {
-            return false;
-        }
-    }
-    true
-}
-
 /// Dual vertices at the barycentres of their faces, those on the boundary in the middle.
 fn place_duals(patch: &Patch, is_circle: bool, z: &mut [Complex64]) {
     let has_dual = patch.graph.primal < patch.graph.vertices;
@@ -351,43 +345,4 @@ fn place_duals(patch: &Patch, is_circle: bool, z: &mut [Complex64]) {
             false => 0.5 * (a + b),
         };
     }
-}
-
-/// Puts the inner points of a run along the circle in order between its ends; false where these are not.
-fn order_run(run: &[u32], arc: &[f64], z: &mut [Complex64]) -> bool {
-    let m = run.len();
-    let mut angle = vec![z[run[0] as usize].arg()];
-    for pair in run.windows(2) {
-        let ahead = z[pair[1] as usize] * z[pair[0] as usize].conj();
-        angle.push(angle[angle.len() - 1] + ahead.arg());
-    }
-    if angle[m - 1] <= angle[0] {
-        return m == 1;
-    }
-    let mut from_end = angle.clone();
-    for k in (0..m - 1).rev() {
-        from_end[k] = from_end[k].min(from_end[k + 1]);
-    }
-    let (mut first, mut highest) = (0, f64::NEG_INFINITY);
-    let mut last_of_before = None;
-    for k in 0..m {
-        highest = highest.max(angle[k]);
-        if k + 1 < m && highest >= from_end[k + 1] {
-            continue;
-        }
-        if k > first {
-            // The block first ..= k, between its neighbours, or the ends of the run.
-            let low = if first == 0 { 0 } else { first - 1 };
-            let high = if k == m - 1 { m - 1 } else { k + 1 };
-            let (from, to) = (last_of_before.unwrap_or(angle[0]), angle[high]);
-            for i in (low + 1)..high {
-                let t = (arc[i] - arc[low]) / (arc[high] - arc[low]);
-                angle[i] = from + t * (to - from);
-                z[run[i] as usize] = Complex64::cis(angle[i]);
-            }
-        }
-        last_of_before = Some(angle[k]);
-        (first, highest) = (k + 1, f64::NEG_INFINITY);
-    }
-    true
 }
