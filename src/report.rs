@@ -175,6 +175,9 @@ pub struct SolverRecord {
     /// Faces that the plain map has folded, where a valid one is in its place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plain_folded: Option<usize>,
+    /// The mean of σ1/σ2 of a plain map that folds nothing, where one of less shear is in its place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plain_shear: Option<f64>,
     /// Vertices of the quad graph that are held at a place: of circle maps the boundary points that make it unique, one where a valid map
     /// is in the place of the plain one and double precision does not suffice for more.
     pub held: usize,
@@ -335,6 +338,7 @@ impl SolverRecord {
             locally_injective: validity.is_locally_one_to_one(),
             repaired: map.repaired,
             plain_folded: map.plain_folded,
+            plain_shear: map.plain_shear,
             held: map.fixed.len(),
             iterations: map.iterations,
             gradient_norm: map.gradient_norm,

@@ -93,6 +93,8 @@ pub struct Map {
     pub repaired: bool,
     /// Of such a map: how many faces that other one has folded; `None` where it did not converge.
     pub plain_folded: Option<usize>,
+    /// The mean of σ1/σ2 of the plain map, where it folds nothing and is not kept because this one has less.
+    pub plain_shear: Option<f64>,
 }
 
 impl Map {
@@ -114,6 +116,7 @@ impl Map {
             exactly: None,
             repaired: false,
             plain_folded: None,
+            plain_shear: None,
         }
     }
 }

@@ -136,6 +136,7 @@ pub(super) fn minimise(
         exactly: None,
         repaired: false,
         plain_folded: None,
+        plain_shear: None,
         fixed,
     })
 }

@@ -79,7 +79,8 @@ pub enum Start {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Valid {
-    /// A valid map of little shear: the lowest MIPS with all faces counting alike, with a free boundary MIPS + γ'L'.
+    /// A valid map of little shear: the lowest MIPS with all faces counting alike, with a free boundary MIPS + γ'L'. Also in the place of a
+    /// circle map that folds nothing but shears by more than 2 in the mean.
     #[default]
     Auto,
     /// That map in the place of a valid plain one, too, where its mean σ1/σ2 is lower: on coarse and obtuse meshes. On fine ones the

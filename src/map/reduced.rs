@@ -113,6 +113,7 @@ pub(super) fn attempt(
                 exactly: Some(Exactly::Circle),
                 repaired: false,
                 plain_folded: None,
+                plain_shear: None,
             });
             Ok(match goes_on {
                 true => Attempt::Elsewhere { after: Some(AFTER_DISORDER), start: None, disordered: Some(map) },
@@ -160,6 +161,7 @@ pub(super) fn attempt(
                 exactly: Some(Exactly::Lengths),
                 repaired: false,
                 plain_folded: None,
+                plain_shear: None,
             })))
         }
     }

@@ -69,8 +69,8 @@ pub struct Arguments {
     /// `riemap list`
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EDGE_WEIGHTS.iter().map(|w| w.name)))]
     pub(super) weights: Option<String>,
-    /// A circle or free map that folds is replaced by a valid one of little shear (auto), or one that does not, too, where the
-    /// other has less shear (best-qc). Free maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an
+    /// A circle or free map that folds is replaced by a valid one of little shear (auto; also a circle map of σ1/σ2 above 2 in the mean), or
+    /// any where the other has less shear (best-qc). Free maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an
     /// --energy or pins of one's own do
     #[arg(long, value_parser = by_name::<Valid>)]
     pub(super) valid: Option<Valid>,

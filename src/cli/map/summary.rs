@@ -49,6 +49,12 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
             "riemap: note: the plain map {was}, and a valid one is in its place (--valid off keeps the plain one)"
         );
     }
+    if let Some(shear) = map.plain_shear {
+        eprintln!(
+            "riemap: note: the plain map had σ₁/σ₂ {shear:.3} in the mean, and one of less shear is in its place (--valid off keeps the \
+             plain one)"
+        );
+    }
     if map.repaired && map.on_circle && options.weights.is_none() && map.fixed.len() < options.fix {
         eprintln!(
             "riemap: note: one boundary point is where it was to be, and not {}: a map with these in their places has parts that \

@@ -20,6 +20,10 @@ const HARDLY: f64 = 1e-4;
 /// The coefficient of the barrier that keeps the boundary off itself.
 const CLEARANCE: f64 = 0.1;
 
+/// Iterations with it at most, as [`most_iterations`](Repair::most_iterations) has them without: each takes ten times as long.
+const FACES_TIMES_ITERATIONS: usize = 1_500_000;
+const MOST_ITERATIONS: std::ops::RangeInclusive<usize> = 200..=1000;
+
 /// Iterations after which the barrier is made anew: by then other parts of the boundary are near each other, and of another size.
 const ROUND: usize = 10;
 
@@ -82,7 +86,8 @@ impl Repair<'_> {
         held: &Fixed,
         watch: &mut dyn Observer,
     ) -> Result<Stage, MapError> {
-        let end = stage.iterations + self.most_iterations();
+        let most = FACES_TIMES_ITERATIONS / self.domain.disc.faces.len();
+        let end = stage.iterations + most.clamp(*MOST_ITERATIONS.start(), *MOST_ITERATIONS.end());
         loop {
             let mut objective = self.flat(coefficient, held)?;
             objective.terms.push((CLEARANCE, Box::new(Clearance::new(&self.domain.graph, &stage.z))));

@@ -19,7 +19,7 @@ use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
 use crate::backend::nonlinear::Newton;
 use crate::backend::{MinimiseError, Minimiser, Observer, Status, StopRule};
 use crate::constraint::{ConstraintError, Fixed, Freedoms};
-use crate::distortion::{FaceMap, Image, Validity, face_maps, folded_faces};
+use crate::distortion::{Image, Validity, face_maps, folded_faces};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Mips, Rest};
 use crate::objective::{Objective, Terms};
@@ -44,8 +44,14 @@ impl MapOptions {
     }
 }
 
+/// The mean of σ1/σ2 above which a circle map is nothing to keep though it folds no face: on coarse meshes with ragged boundaries H is
+/// least where some faces are drawn out to needles. Of 200 discs cut out of public meshes 74 had plain maps that fold nothing; 58 of these
+/// were above libigl's harmonic map, by factors up to 500. 45 of the 58 are above this mean, the others by a factor of 1.25 at most.
+const LARGEST_SHEAR: f64 = 2.0;
+
 /// The plain map where it passes the exact check, which for free maps may overlap itself; else, or where there is none because it did not
-/// converge, a valid one. Under [`Valid::BestQc`] that of the two which has less shear.
+/// converge, a valid one. Of a circle map that passes and is sheared by more than 2 in the mean, and of any under [`Valid::BestQc`], that
+/// of the two which has less shear.
 pub(super) fn kept_or_replaced(
     options: &MapOptions,
     domain: &Domain,
@@ -58,9 +64,11 @@ pub(super) fn kept_or_replaced(
             let validity = domain.validity(&map.z[..domain.disc.positions.len()]);
             let spent = map.iterations;
             if accepts(options, &validity) {
-                match options.valid {
-                    Valid::BestQc => (Some(map), None, spent),
-                    _ => return Ok(map),
+                let looks_further = options.valid == Valid::BestQc
+                    || (options.boundary == Boundary::Circle && shear(domain, &map) > LARGEST_SHEAR);
+                match looks_further {
+                    true => (Some(map), None, spent),
+                    false => return Ok(map),
                 }
             } else {
                 let folded = Some(validity.folded.len());
@@ -91,19 +99,25 @@ pub(super) fn kept_or_replaced(
         _ => repair.circle(watch),
     };
     let found = found.map(|map| Map { iterations: map.iterations + spent, plain_folded: folded, ..map });
-    match kept {
-        None => Ok(Map { repaired: true, ..found? }),
-        Some(plain) => Ok(found.ok().filter(|map| is_better(options, domain, map, &plain)).unwrap_or(plain)),
-    }
+    let Some(plain) = kept else { return Ok(Map { repaired: true, ..found? }) };
+    let plain_shear = shear(domain, &plain);
+    let is_better = |map: &Map| {
+        accepts(options, &domain.validity(&map.z[..domain.disc.positions.len()])) && shear(domain, map) < plain_shear
+    };
+    Ok(match found.ok().filter(is_better) {
+        Some(map) => Map { plain_shear: Some(plain_shear), ..map },
+        None => plain,
+    })
 }
 
-/// Whether a map is accepted and has less shear than another.
-fn is_better(options: &MapOptions, domain: &Domain, map: &Map, other: &Map) -> bool {
-    let shear = |map: &Map| {
-        let faces = face_maps(&domain.disc, &domain.graph, &Image::of_disc(&map.z));
-        faces.iter().filter(|face| face.has_shape()).map(FaceMap::quasi_conformal).sum::<f64>()
-    };
-    accepts(options, &domain.validity(&map.z[..domain.disc.positions.len()])) && shear(map) < shear(other)
+/// The mean of σ1/σ2 over the faces.
+fn shear(domain: &Domain, map: &Map) -> f64 {
+    let faces = face_maps(&domain.disc, &domain.graph, &Image::of_disc(&map.z));
+    let (sum, count) = faces
+        .iter()
+        .filter(|face| face.has_shape())
+        .fold((0.0, 0usize), |(sum, count), face| (sum + face.quasi_conformal(), count + 1));
+    sum / count.max(1) as f64
 }
 
 /// The plain map with its folds taken out where they are, if it has boundary points out of order; `None` where that does not do.
