@@ -96,6 +96,7 @@ pub static SURFACES: &[Row] = &[
     disc::pseudosphere::PSEUDOSPHERE,
     disc::torus_patch::TORUS_PATCH,
     hard::capsule::CAPSULE,
+    hard::ramp::RAMP,
     hard::graph::SPIKES,
     hard::graph::ROUGH,
     hard::flat::COMB,

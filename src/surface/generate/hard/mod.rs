@@ -5,3 +5,4 @@ pub(super) mod capsule;
 mod cells;
 pub(super) mod flat;
 pub(super) mod graph;
+pub(super) mod ramp;
