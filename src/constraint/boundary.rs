@@ -60,7 +60,7 @@ pub fn on_circle(graph: &QuadGraph, radius: f64, anchors: &[(usize, f64)]) -> Re
     Ok(by_arc(graph, &arc_lengths(graph, &graph.boundary_length)?, radius, anchors))
 }
 
-/// The same on the unit circle, from an angle of 0, with neighbours no nearer than a share [`APART`] of their mean distance: a boundary on
+/// The same on the unit circle, from an angle of 0, with neighbours no nearer than a share of 10⁻⁸ of their mean distance: a boundary on
 /// which every vertex has a place of its own, even where rounding would put edges of different lengths on each other.
 ///
 /// # Errors
