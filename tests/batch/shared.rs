@@ -101,6 +101,10 @@ pub fn contents(results: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
                 collect(&path, root, found);
                 continue;
             }
+            // What a killed program was about to write: it has no name yet.
+            if path.file_name().unwrap().to_string_lossy().starts_with('.') {
+                continue;
+            }
             let mut bytes = fs::read(&path).unwrap();
             if path.extension().unwrap() == "json" {
                 let mut record: Record = serde_json::from_slice(&bytes).unwrap();
