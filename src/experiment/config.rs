@@ -189,7 +189,7 @@ impl Config {
             for (key, value) in &point.values {
                 document.assign(&key.split('.').collect::<Vec<_>>(), (*value).clone())?;
             }
-            let run = run(kind, position, document, &config.swept, &mut names)?;
+            let run = run((kind, &expectations), position, document, &config.swept, &mut names)?;
             match config.without.iter().any(|without| without.runs.holds_config(&run.config)) {
                 true => {}
                 false if full || !point.full => config.runs.push(run),
@@ -226,19 +226,18 @@ impl Column {
 }
 
 fn run(
-    kind: &dyn Kind,
+    (kind, expectations): (&dyn Kind, &[Expectation]),
     position: usize,
     mut document: Document,
     swept: &[String],
     names: &mut HashSet<String>,
 ) -> Result<Run, ConfigError> {
     let of_all: Bounds = document.optional("expect")?.unwrap_or_default();
-    let of_some: Vec<Expectation> = document.optional("expect-where")?.unwrap_or_default();
     let task = kind.task(&document)?;
     document.remove("title");
     document.remove("claim");
     let mut config = document.to_json()?;
-    let of_some = expect::resolve(&mut config, of_some);
+    let of_some = expect::resolve(&mut config, expectations);
     let expect = of_all.into_iter().chain(of_some).collect();
     let base = run_name(&config, swept);
     let numbered = (2..).map(|i| format!("{base}-{i}"));

@@ -19,7 +19,7 @@ pub struct Expectation {
 }
 
 /// Puts what `[[expect-where]]` says of this run into `expect` of its resolved config; the bounds.
-pub(super) fn resolve(config: &mut Value, expectations: Vec<Expectation>) -> Bounds {
+pub(super) fn resolve(config: &mut Value, expectations: &[Expectation]) -> Bounds {
     let chosen: Vec<bool> = expectations.iter().map(|some| some.runs.holds_config(config)).collect();
     let written = config.as_object_mut().and_then(|config| config.remove("expect-where"));
     let written = written.iter().filter_map(Value::as_array).flatten().zip(&chosen);
@@ -31,7 +31,8 @@ pub(super) fn resolve(config: &mut Value, expectations: Vec<Expectation>) -> Bou
             all.extend(bounds.clone());
         }
     }
-    expectations.into_iter().zip(chosen).filter(|(_, chosen)| *chosen).flat_map(|(some, _)| some.bounds).collect()
+    let bounds = expectations.iter().zip(chosen).filter(|(_, chosen)| *chosen).flat_map(|(some, _)| &some.bounds);
+    bounds.map(|(key, bound)| (key.clone(), bound.clone())).collect()
 }
 
 /// What a claim says of one number or word of the result.
