@@ -5,7 +5,6 @@ mod image;
 mod singular;
 mod validity;
 
-pub use crate::polygon::{boundary_crossing, out_of_order};
 pub use crate::predicate::orientation;
 pub use corner::corner_errors;
 pub use image::Image;
@@ -16,6 +15,7 @@ use num_complex::Complex64;
 use serde::Serialize;
 
 use crate::energy::conformal;
+use crate::polygon::boundary_crossing;
 use crate::quad_graph::{QuadGraph, TangentPlanes};
 use crate::surface::disc::Disc;
 use crate::surface::edges::next_in;

@@ -3,9 +3,10 @@
 use num_complex::Complex64;
 
 use super::conformal::Weight;
-use super::{Block, Curvature};
+use super::{Block, Curvature, EnergyError, Rest};
 use crate::predicate::orientation;
 use crate::quad_graph::RestTriangle;
+use crate::sparse::Stencils;
 
 /// The derivatives of a density f with respect to A = |a|² and B = |b|²; those of second order times what makes them ones along a and b.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +21,62 @@ pub struct Derivatives {
     pub ab: f64,
     /// B ∂²f/∂B².
     pub bb: f64,
+}
+
+/// The triangles of a mesh, or of the corners of its quads.
+pub struct Triangles {
+    vertices: Stencils,
+    pieces: Vec<Piece>,
+}
+
+impl Triangles {
+    /// Those of the rest metric, for the energy of that name.
+    ///
+    /// # Errors
+    /// A triangle without area at rest.
+    pub(super) fn new(rest: Rest, energy: &'static str) -> Result<Self, EnergyError> {
+        let triangles = &rest.metric.triangles;
+        if let Some(flat) = triangles.iter().find(|t| !t.is_proper()) {
+            let count = triangles.iter().filter(|t| !t.is_proper()).count();
+            return Err(EnergyError::NoArea { energy, face: flat.face, count });
+        }
+        Ok(Triangles {
+            pieces: triangles.iter().map(|t| Piece::new(t, rest.weight)).collect(),
+            vertices: Stencils::new(&triangles.iter().map(|t| t.vertices).collect::<Vec<_>>()),
+        })
+    }
+
+    /// Each of them, with the places of its corners.
+    pub(super) fn at<'a>(&'a self, z: &'a [Complex64]) -> impl Iterator<Item = (&'a Piece, [Complex64; 3])> + 'a {
+        self.pieces.iter().enumerate().map(move |(e, piece)| {
+            let v = self.vertices.get(e);
+            (piece, [v[0], v[1], v[2]].map(|v| z[v as usize]))
+        })
+    }
+
+    /// Adds what is given for the corners of each triangle to their vertices.
+    pub(super) fn scatter(&self, of_corners: impl Iterator<Item = [Complex64; 3]>, to: &mut [Complex64]) {
+        for (e, corners) in of_corners.enumerate() {
+            for (&v, g) in self.vertices.get(e).iter().zip(corners) {
+                to[v as usize] += g;
+            }
+        }
+    }
+
+    /// Their vertices.
+    pub(super) fn stencils(&self) -> Stencils {
+        self.vertices.clone()
+    }
+
+    /// |a|² + |b|² of each, twice the ratio of its Dirichlet energy to its area.
+    pub fn stretch(&self, z: &[Complex64]) -> Vec<f64> {
+        self.at(z).map(|(piece, corners)| piece.map_of_any(corners).stretch()).collect()
+    }
+
+    /// J of each.
+    pub fn area_ratios(&self, z: &[Complex64]) -> Vec<f64> {
+        self.at(z).map(|(piece, corners)| piece.map_of_any(corners).j).collect()
+    }
 }
 
 /// A triangle at rest. With the edge v0 → v1 as 0 → ℓ and v2 at wℓ: `b = c (w e1 − e2)`, `a = c (e2 − w̄ e1)`, e1 = z1 − z0, e2 = z2 − z0.
@@ -38,6 +95,13 @@ pub(super) struct Local {
     pub a: Complex64,
     pub b: Complex64,
     pub j: f64,
+}
+
+impl Local {
+    /// |a|² + |b|².
+    pub fn stretch(&self) -> f64 {
+        self.a.norm_sqr() + self.b.norm_sqr()
+    }
 }
 
 impl Piece {

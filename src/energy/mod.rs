@@ -23,7 +23,7 @@ mod symmetric_dirichlet;
 mod triangle_sum;
 mod unfolding;
 
-pub use affine::Derivatives;
+pub use affine::{Derivatives, Triangles};
 pub use authalic::Authalic;
 pub use circle::Circle;
 pub use clearance::Clearance;

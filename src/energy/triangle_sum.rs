@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::affine::{Derivatives, Local, Piece};
+use super::affine::{Derivatives, Local, Triangles};
 use super::{Block, Curvature, Energy, EnergyError, Polynomial, Rest};
 use crate::sparse::Stencils;
 
@@ -24,8 +24,7 @@ pub trait Density: Sync {
 ///
 /// Unit weights: w = 1 for each face. Integral: w is the area at rest.
 pub struct TriangleSum<D> {
-    triangles: Stencils,
-    pieces: Vec<Piece>,
+    triangles: Triangles,
     density: std::marker::PhantomData<D>,
 }
 
@@ -35,21 +34,7 @@ impl<D: Density> TriangleSum<D> {
     /// # Errors
     /// A triangle without area at rest.
     pub fn new(rest: Rest) -> Result<Self, EnergyError> {
-        let triangles = &rest.metric.triangles;
-        if let Some(flat) = triangles.iter().find(|t| !t.is_proper()) {
-            let count = triangles.iter().filter(|t| !t.is_proper()).count();
-            return Err(EnergyError::NoArea { energy: D::NAME, face: flat.face, count });
-        }
-        Ok(TriangleSum {
-            pieces: triangles.iter().map(|t| Piece::new(t, rest.weight)).collect(),
-            triangles: Stencils::new(&triangles.iter().map(|t| t.vertices).collect::<Vec<_>>()),
-            density: std::marker::PhantomData,
-        })
-    }
-
-    fn corners(&self, e: usize, z: &[Complex64]) -> [Complex64; 3] {
-        let v = self.triangles.get(e);
-        [v[0], v[1], v[2]].map(|v| z[v as usize])
+        Ok(TriangleSum { triangles: Triangles::new(rest, D::NAME)?, density: std::marker::PhantomData })
     }
 }
 
@@ -60,8 +45,8 @@ impl<D: Density> Energy for TriangleSum<D> {
 
     fn value(&self, z: &[Complex64]) -> f64 {
         let mut sum = 0.0;
-        for (e, piece) in self.pieces.iter().enumerate() {
-            let Some(Local { a, b, j }) = piece.map(self.corners(e, z)) else { return f64::INFINITY };
+        for (piece, corners) in self.triangles.at(z) {
+            let Some(Local { a, b, j }) = piece.map(corners) else { return f64::INFINITY };
             sum += piece.weight * D::value(a.norm_sqr(), b.norm_sqr(), j);
         }
         if sum.is_nan() { f64::INFINITY } else { sum }
@@ -69,26 +54,22 @@ impl<D: Density> Energy for TriangleSum<D> {
 
     /// NaN at the vertices of triangles that are turned over.
     fn add_gradient(&self, t: f64, z: &[Complex64], gradient: &mut [Complex64]) {
-        for (e, piece) in self.pieces.iter().enumerate() {
-            let corners = match piece.map(self.corners(e, z)) {
-                Some(at) => piece.gradient(t, &at, &D::derivatives(at.a.norm_sqr(), at.b.norm_sqr(), at.j)),
-                None => [Complex64::from(f64::NAN); 3],
-            };
-            for (&v, g) in self.triangles.get(e).iter().zip(corners) {
-                gradient[v as usize] += g;
-            }
-        }
+        let of_corners = self.triangles.at(z).map(|(piece, corners)| match piece.map(corners) {
+            Some(at) => piece.gradient(t, &at, &D::derivatives(at.a.norm_sqr(), at.b.norm_sqr(), at.j)),
+            None => [Complex64::from(f64::NAN); 3],
+        });
+        self.triangles.scatter(of_corners, gradient);
     }
 
     fn add_bending(&self, _t: f64, _z: &[Complex64], _d: &[Complex64], _gradient: &mut [Complex64]) {}
 
     fn stencils(&self) -> Stencils {
-        self.triangles.clone()
+        self.triangles.stencils()
     }
 
     fn hessian(&self, z: &[Complex64], curvature: Curvature, add: &mut dyn FnMut(usize, &Block)) {
-        for (e, piece) in self.pieces.iter().enumerate() {
-            match piece.map(self.corners(e, z)) {
+        for (e, (piece, corners)) in self.triangles.at(z).enumerate() {
+            match piece.map(corners) {
                 Some(at) => {
                     let d = D::derivatives(at.a.norm_sqr(), at.b.norm_sqr(), at.j);
                     add(e, &piece.block(&at, &d, curvature));
@@ -108,11 +89,8 @@ impl<D: Density> Energy for TriangleSum<D> {
 
     /// The smallest positive root of the triangles' areas `|e1 + t d1, e2 + t d2|`.
     fn largest_step(&self, z: &[Complex64], d: &[Complex64]) -> f64 {
-        let roots = (0..self.pieces.len()).map(|e| {
-            let edges = |x: &[Complex64]| {
-                let [x0, x1, x2] = self.corners(e, x);
-                (x1 - x0, x2 - x0)
-            };
+        let edges = |[x0, x1, x2]: [Complex64; 3]| (x1 - x0, x2 - x0);
+        let roots = self.triangles.at(z).zip(self.triangles.at(d)).map(|((_, z), (_, d))| {
             let ((e1, e2), (d1, d2)) = (edges(z), edges(d));
             let cross = |a: Complex64, b: Complex64| (a.conj() * b).im;
             smallest_positive_root(cross(e1, e2), cross(e1, d2) + cross(d1, e2), cross(d1, d2))

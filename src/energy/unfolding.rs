@@ -1,6 +1,6 @@
 use num_complex::Complex64;
 
-use super::affine::{Derivatives, Local, Piece};
+use super::affine::{Derivatives, Local, Triangles};
 use super::{Block, Curvature, Energy, EnergyError, Polynomial, Rest};
 use crate::sparse::Stencils;
 
@@ -8,45 +8,27 @@ use crate::sparse::Stencils;
 /// everywhere, the higher the more a triangle is turned over, and MIPS itself as ε goes to 0 (Garanzha et al., *Foldover-free maps in 50
 /// lines of code*, 2021). No energy of the table: it leads to a map without folds, and says nothing of the map.
 pub struct Unfolding {
-    triangles: Stencils,
-    pieces: Vec<Piece>,
-    /// ε of each piece.
+    triangles: Triangles,
+    /// ε of each.
     epsilon: Vec<f64>,
 }
 
 impl Unfolding {
+    /// The triangles of the rest metric.
+    ///
+    /// # Errors
+    /// One without area at rest.
+    pub fn triangles(rest: Rest) -> Result<Triangles, EnergyError> {
+        Triangles::new(rest, "MIPS")
+    }
+
     /// Over the triangles of the rest metric, ε that share of `scale`, the area of a triangle about where the map is to come to over its area
     /// at rest.
     ///
     /// # Errors
     /// A triangle without area at rest.
     pub fn new(rest: Rest, scale: &[f64], share: f64) -> Result<Self, EnergyError> {
-        let triangles = &rest.metric.triangles;
-        if let Some(flat) = triangles.iter().find(|t| !t.is_proper()) {
-            let count = triangles.iter().filter(|t| !t.is_proper()).count();
-            return Err(EnergyError::NoArea { energy: "MIPS", face: flat.face, count });
-        }
-        Ok(Unfolding {
-            pieces: triangles.iter().map(|t| Piece::new(t, rest.weight)).collect(),
-            triangles: Stencils::new(&triangles.iter().map(|t| t.vertices).collect::<Vec<_>>()),
-            epsilon: scale.iter().map(|s| share * s).collect(),
-        })
-    }
-
-    /// |a|² + |b|² of each triangle, twice the ratio of its Dirichlet energy to its area.
-    pub fn stretch(&self, z: &[Complex64]) -> Vec<f64> {
-        let sizes = (0..self.pieces.len()).map(|e| self.local(e, z));
-        sizes.map(|at| at.a.norm_sqr() + at.b.norm_sqr()).collect()
-    }
-
-    /// J of each triangle.
-    pub fn area_ratios(&self, z: &[Complex64]) -> Vec<f64> {
-        (0..self.pieces.len()).map(|e| self.local(e, z).j).collect()
-    }
-
-    fn local(&self, e: usize, z: &[Complex64]) -> Local {
-        let v = self.triangles.get(e);
-        self.pieces[e].map_of_any([v[0], v[1], v[2]].map(|v| z[v as usize]))
+        Ok(Unfolding { triangles: Self::triangles(rest)?, epsilon: scale.iter().map(|s| share * s).collect() })
     }
 
     /// χ and √(ε² + J²).
@@ -82,37 +64,31 @@ impl Energy for Unfolding {
     }
 
     fn value(&self, z: &[Complex64]) -> f64 {
-        let sum: f64 = self
-            .pieces
-            .iter()
-            .enumerate()
-            .map(|(e, piece)| {
-                let at = self.local(e, z);
-                piece.weight * ((at.a.norm_sqr() + at.b.norm_sqr()) / self.chi(e, at.j).0 - 1.0)
-            })
-            .sum();
+        let terms = self.triangles.at(z).enumerate().map(|(e, (piece, corners))| {
+            let at = piece.map_of_any(corners);
+            piece.weight * (at.stretch() / self.chi(e, at.j).0 - 1.0)
+        });
+        let sum: f64 = terms.sum();
         if sum.is_nan() { f64::INFINITY } else { sum }
     }
 
     fn add_gradient(&self, t: f64, z: &[Complex64], gradient: &mut [Complex64]) {
-        for (e, piece) in self.pieces.iter().enumerate() {
-            let at = self.local(e, z);
-            let corners = piece.gradient(t, &at, &self.derivatives(e, &at));
-            for (&v, g) in self.triangles.get(e).iter().zip(corners) {
-                gradient[v as usize] += g;
-            }
-        }
+        let of_corners = self.triangles.at(z).enumerate().map(|(e, (piece, corners))| {
+            let at = piece.map_of_any(corners);
+            piece.gradient(t, &at, &self.derivatives(e, &at))
+        });
+        self.triangles.scatter(of_corners, gradient);
     }
 
     fn add_bending(&self, _t: f64, _z: &[Complex64], _d: &[Complex64], _gradient: &mut [Complex64]) {}
 
     fn stencils(&self) -> Stencils {
-        self.triangles.clone()
+        self.triangles.stencils()
     }
 
     fn hessian(&self, z: &[Complex64], curvature: Curvature, add: &mut dyn FnMut(usize, &Block)) {
-        for (e, piece) in self.pieces.iter().enumerate() {
-            let at = self.local(e, z);
+        for (e, (piece, corners)) in self.triangles.at(z).enumerate() {
+            let at = piece.map_of_any(corners);
             add(e, &piece.block(&at, &self.derivatives(e, &at), curvature));
         }
     }

@@ -6,7 +6,7 @@ use super::{Boundary, Domain, Map, MapError, MapOptions, Valid};
 use crate::backend::Observer;
 use crate::backend::convex::{ConvexSolution, Towards, convex_map, edge_weights, outward};
 use crate::constraint::Fixed;
-use crate::distortion::Validity;
+use crate::distortion::{Validity, folded_faces};
 use crate::energy::conformal;
 
 /// The weights that are tried where rounding has spoiled the map by others.
@@ -39,7 +39,7 @@ impl MapOptions {
         let mut fixed = self.fixed(&domain.disc, &domain.graph)?;
         let first = convex_map(&domain.disc, &(row.make)(&domain.disc)?, &fixed, watch)?;
         let (solution, backend) = match row.convex && self.valid != Valid::Off {
-            true => domain.first_accepted((first, row.name), &fixed, &|z| domain.is_one_to_one(z), watch)?,
+            true => domain.first_accepted((first, row.name), &fixed, &mut |z| domain.is_one_to_one(z), watch)?,
             false => (first, row.name),
         };
         fixed.hold_dual_boundary(&domain.graph);
@@ -60,7 +60,7 @@ impl Domain {
         &self,
         first: (ConvexSolution, &'static str),
         fixed: &Fixed,
-        accepts: &dyn Fn(&[Complex64]) -> bool,
+        accepts: &mut dyn FnMut(&[Complex64]) -> bool,
         watch: &mut dyn Observer,
     ) -> Result<(ConvexSolution, &'static str), MapError> {
         if accepts(&first.0.z) {
@@ -80,7 +80,12 @@ impl Domain {
         self.validity(z).is_one_to_one()
     }
 
-    /// The exact check of the map that puts the vertices of the mesh at `z`.
+    /// The faces that fold in the map that puts the vertices of the mesh at `z`, as the domain numbers them.
+    pub(super) fn folded(&self, z: &[Complex64]) -> Vec<u32> {
+        folded_faces(&self.disc, |c| z[self.disc.faces.corners()[c] as usize])
+    }
+
+    /// The exact check of the map that puts the vertices of the mesh at `z`; what follows these, as dual vertices do, does not count.
     pub fn validity(&self, z: &[Complex64]) -> Validity {
         Validity::new(&self.disc, |c| z[self.disc.faces.corners()[c] as usize])
     }

@@ -42,8 +42,8 @@ pub(super) fn start(
 }
 
 impl Domain {
-    /// The vertices of the mesh under a convex combination map that is one-to-one, exactly, and that `suits`: of mean-value weights, of
-    /// uniform ones, of outward ones, the first.
+    /// The vertices of the mesh under a convex combination map that is one-to-one, exactly: of those by mean-value weights, by outward
+    /// ones, by uniform ones the first that `suits`, else the first.
     ///
     /// # Errors
     /// None is: the boundary is held on no convex curve, double precision does not suffice, or two quads share two edges.
@@ -60,32 +60,43 @@ impl Domain {
                 count: doublets.len(),
             });
         }
-        let accepts = |z: &[Complex64]| self.is_one_to_one(z) && suits(z);
-        // Where an angle is 0 or π weights that see no geometry are left.
+        let mut spare = None;
+        let mut accepts = |z: &[Complex64]| {
+            let is_one_to_one = self.is_one_to_one(z);
+            let is_accepted = is_one_to_one && suits(z);
+            if is_one_to_one && !is_accepted && spare.is_none() {
+                spare = Some(z.to_vec());
+            }
+            is_accepted
+        };
         let map_by = |name: &str, watch: &mut dyn Observer| {
             let weights = edge_weights(name).and_then(|row| (row.make)(&self.disc))?;
             convex_map(&self.disc, &weights, fixed, watch)
         };
-        let first = match map_by("mean-value", watch) {
-            Ok(solution) => solution,
-            Err(_) => map_by("uniform", watch)?,
+        let (first, name) = match map_by("mean-value", watch) {
+            Ok(solution) => (solution, "mean-value"),
+            // Where an angle is 0 or π weights that see no geometry are left.
+            Err(_) => (map_by("uniform", watch)?, "uniform"),
         };
-        let (solution, _) = self.first_accepted((first, "mean-value"), fixed, &accepts, watch)?;
+        let (solution, _) = self.first_accepted((first, name), fixed, &mut accepts, watch)?;
         if accepts(&solution.z) {
             return Ok(solution.z);
         }
         // Weights that see no geometry last: they are drawn outward nowhere, and least where the boundary is short.
-        let uniform = map_by("uniform", watch)?;
-        if accepts(&uniform.z) {
-            return Ok(uniform.z);
+        if name != "uniform" {
+            let uniform = map_by("uniform", watch)?;
+            if accepts(&uniform.z) {
+                return Ok(uniform.z);
+            }
+        }
+        if let Some(z) = spare {
+            return Ok(z);
         }
         let folded = self.validity(&solution.z).folded;
         let smallest = self.smallest_edge(&solution.z);
         Err(MapError::NoValidStart { folded: folded.len(), first: folded.first().copied(), smallest })
     }
-}
 
-impl Domain {
     /// The vertices inside a quad mesh that have two faces: an angle of one of them is π at least under every map.
     fn doublets(&self) -> Vec<u32> {
         if self.is_of_triangles() {

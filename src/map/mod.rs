@@ -23,9 +23,10 @@ use num_complex::Complex64;
 
 use crate::backend::{Observer, Phase};
 use crate::constraint::{Fixed, Shape};
-use crate::distortion::{Distortion, Image, Validity, mesh_boundary, out_of_order};
+use crate::distortion::{Distortion, Image, Validity, mesh_boundary};
 use crate::input::Input;
 use crate::periodic::PeriodicMap;
+use crate::polygon::out_of_order;
 use crate::surface::cut::CutRecord;
 use crate::surface::diagnosis::{Diagnosis, Finding, Severity};
 use crate::surface::disc::Disc;

@@ -50,9 +50,8 @@ pub(super) fn minimise(
     let (after, start) = match reduced::attempt(options, expression, domain, &anchors, watch)? {
         Attempt::Done(map) => return Ok(*map),
         Attempt::Elsewhere { after, start, disordered } => {
-            // A valid map that is as near to conformal spares the other backend.
-            if let Some(plain) = disordered.filter(|_| options.promises_valid() && !options.keep_order)
-                && let Some(map) = valid::unfolded(options, domain, &plain, watch)?
+            if let Some(plain) = disordered
+                && let Some(map) = valid::unfolded(options, domain, &plain, watch)?.0
             {
                 return Ok(map);
             }
@@ -122,22 +121,15 @@ pub(super) fn minimise(
     }
     let smallest_singular_value = if circle { smallest_singular_value(&objective, &minimum.y) } else { None };
     Ok(Map {
-        z,
         total: Some(total),
         energies,
         gradient_norm: Some(minimum.gradient_norm),
-        backend: after.unwrap_or(backend.name()),
         outcome: Outcome::Minimised(minimum.status),
         iterations,
-        residual: None,
         smallest_singular_value,
         on_circle: circle || (options.boundary == Boundary::Fixed && options.fixed_on_circle()),
         anchored: anchors.exact,
-        exactly: None,
-        repaired: false,
-        plain_folded: None,
-        plain_shear: None,
-        fixed,
+        ..Map::solved(after.unwrap_or(backend.name()), z, fixed, None)
     })
 }
 

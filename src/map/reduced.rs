@@ -9,9 +9,9 @@ use super::{Boundary, Domain, Exactly, Map, MapError, MapOptions, Outcome};
 use crate::backend::reduced::{self, CircleProblem, FreeProblem, Reduction, Unreduced, circle_map, free_map};
 use crate::backend::{Observer, Phase, StopRule};
 use crate::constraint::{Fixed, hold_gauge};
-use crate::distortion::out_of_order;
 use crate::energy::Expression;
 use crate::energy::conformal::{self, Weight};
+use crate::polygon::out_of_order;
 use crate::quad_graph::{QuadGraph, curvature};
 use crate::surface::disc::Disc;
 
@@ -41,7 +41,7 @@ pub(super) enum Attempt {
         after: Option<&'static str>,
         /// A map to start from.
         start: Option<Vec<Complex64>>,
-        /// The map of the reduction, with boundary points out of order.
+        /// The map of the reduction, with boundary points out of order, where it may be put right.
         disordered: Option<Box<Map>>,
     },
 }
@@ -93,6 +93,10 @@ pub(super) fn attempt(
             }
             let may_go_on = !by_name && (options.keep_order || graph.vertices <= MOST_FOR_SOFT);
             let goes_on = may_go_on && out_of_order(&mesh_part(graph, &found.boundary)) > 0;
+            // A valid map that is as near to conformal spares the other backend.
+            if goes_on && (options.keep_order || !options.promises_valid()) {
+                return Ok(Attempt::Elsewhere { after: Some(AFTER_DISORDER), start: None, disordered: None });
+            }
             let z = reduction.extend(&found.boundary);
             drop(reduction);
             let h = conformal::value(graph, &conformal::weights(graph, Weight::Integral)?, &z);
@@ -101,19 +105,13 @@ pub(super) fn attempt(
                 total: Some(total(expression, &energies)),
                 energies,
                 gradient_norm: Some(found.gradient_norm),
-                z,
-                fixed,
-                backend: reduced::NAME,
                 outcome: Outcome::Minimised(found.status),
                 iterations: found.iterations,
-                residual: None,
                 smallest_singular_value: found.smallest_singular_value,
                 on_circle: true,
                 anchored: anchors.exact,
                 exactly: Some(Exactly::Circle),
-                repaired: false,
-                plain_folded: None,
-                plain_shear: None,
+                ..Map::solved(reduced::NAME, z, fixed, None)
             });
             Ok(match goes_on {
                 true => Attempt::Elsewhere { after: Some(AFTER_DISORDER), start: None, disordered: Some(map) },
@@ -148,20 +146,11 @@ pub(super) fn attempt(
             Ok(Attempt::Done(Box::new(Map {
                 total: Some(total(expression, &energies)),
                 energies,
-                gradient_norm: None,
-                z,
-                fixed,
-                backend: reduced::NAME,
                 outcome: Outcome::Minimised(found.status),
                 iterations: found.iterations,
                 residual: Some(found.residual),
-                smallest_singular_value: None,
-                on_circle: false,
-                anchored: false,
                 exactly: Some(Exactly::Lengths),
-                repaired: false,
-                plain_folded: None,
-                plain_shear: None,
+                ..Map::solved(reduced::NAME, z, fixed, None)
             })))
         }
     }

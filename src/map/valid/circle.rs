@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
-use super::{Repair, Stage};
+use super::{Repair, Stage, middle_of_arc};
 use crate::backend::{Observer, Status};
 use crate::constraint::{Fixed, Freedoms, on_circle, on_circle_apart};
 use crate::map::{Exactly, Map, MapError};
@@ -23,7 +23,7 @@ impl Repair<'_> {
             None => (stage, one, false),
         };
         let has_come_to_its_end = matches!(stage.status, Status::Converged | Status::Precision);
-        let stage = match has_come_to_its_end && !self.is_over(&stage) {
+        let stage = match has_come_to_its_end && !stage.is_over(self.left) {
             true => self.shear_less(stage, &fixed, watch)?,
             false => stage,
         };
@@ -90,10 +90,7 @@ impl Repair<'_> {
         };
         // Angles are rounded, and places that come from them.
         let suits = |z: &[Complex64]| objective.value(&objective.freedoms.restrict(&padded(z))).is_finite();
-        let z = match self.domain.convex_start(&whole, &suits, watch) {
-            Err(MapError::NoValidStart { .. }) => self.domain.convex_start(&whole, &|_| true, watch)?,
-            start => start?,
-        };
+        let z = self.domain.convex_start(&whole, &suits, watch)?;
         let stage = self.minimise(&objective, Stage::start(padded(&z)), watch)?;
         Ok((self.with_dual_vertices_placed(stage), fixed))
     }
@@ -128,8 +125,7 @@ impl Repair<'_> {
         let n = graph.boundary.len();
         for k in (0..n).filter(|&k| graph.is_dual(graph.boundary[k])) {
             let [a, b] = [(k + n - 1) % n, (k + 1) % n].map(|k| z[graph.boundary[k] as usize]);
-            let arc = (b * a.conj()).arg().rem_euclid(2.0 * PI);
-            z[graph.boundary[k] as usize] = a * Complex64::cis(0.5 * arc);
+            z[graph.boundary[k] as usize] = middle_of_arc(a, b);
         }
         z
     }

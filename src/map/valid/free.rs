@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::{Repair, Stage};
+use super::{Patience, Repair, Stage};
 use crate::backend::{Observer, Status};
 use crate::constraint::{Fixed, Freedoms};
 use crate::energy::conformal::Weight;
@@ -20,9 +20,8 @@ const HARDLY: f64 = 1e-4;
 /// The coefficient of the barrier that keeps the boundary off itself.
 const CLEARANCE: f64 = 0.1;
 
-/// Iterations with it at most, as [`most_iterations`](Repair::most_iterations) has them without: each takes ten times as long.
-const FACES_TIMES_ITERATIONS: usize = 1_500_000;
-const MOST_ITERATIONS: std::ops::RangeInclusive<usize> = 200..=1000;
+/// An iteration with it takes ten times as long as one without.
+const PATIENCE: Patience = Patience { faces_times_iterations: 1_500_000, iterations: 200..=1000 };
 
 /// Iterations after which the barrier is made anew: by then other parts of the boundary are near each other, and of another size.
 const ROUND: usize = 10;
@@ -67,7 +66,7 @@ impl Repair<'_> {
         };
         let last = (self.options.valid == Valid::BestQc).then_some(HARDLY);
         for coefficient in lengths.iter().copied().chain(last) {
-            if self.is_over(&stage) {
+            if stage.is_over(self.left) {
                 break;
             }
             stage = match overlaps {
@@ -86,14 +85,13 @@ impl Repair<'_> {
         held: &Fixed,
         watch: &mut dyn Observer,
     ) -> Result<Stage, MapError> {
-        let most = FACES_TIMES_ITERATIONS / self.domain.disc.faces.len();
-        let end = stage.iterations + most.clamp(*MOST_ITERATIONS.start(), *MOST_ITERATIONS.end());
+        let end = stage.iterations + PATIENCE.with(self.domain.disc.faces.len());
         loop {
             let mut objective = self.flat(coefficient, held)?;
             objective.terms.push((CLEARANCE, Box::new(Clearance::new(&self.domain.graph, &stage.z))));
             let round = ROUND.min(end - stage.iterations);
             stage = self.minimise_within(round, &objective, stage, watch)?;
-            if stage.status != Status::MaxIterations || stage.iterations >= end || self.is_over(&stage) {
+            if stage.status != Status::MaxIterations || stage.iterations >= end || stage.is_over(self.left) {
                 return Ok(stage);
             }
         }

@@ -32,7 +32,7 @@ pub(in crate::map) fn unless_hopeless(
         return Ok((first, iterations));
     }
     let z = objective.freedoms.expand(&first.y);
-    let folded = domain.validity(&z[..domain.disc.positions.len()]).folded.len();
+    let folded = domain.validity(&z).folded.len();
     if folded as f64 > HOPELESS * domain.disc.faces.len() as f64 {
         return Err(MapError::NotConverged {
             backend: "levenberg-marquardt",

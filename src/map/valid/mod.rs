@@ -12,6 +12,9 @@ mod patch;
 
 pub(super) use hopeless::unless_hopeless;
 
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
 use num_complex::Complex64;
 
 use super::nonlinear::{self, Anchors};
@@ -19,7 +22,7 @@ use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
 use crate::backend::nonlinear::Newton;
 use crate::backend::{MinimiseError, Minimiser, Observer, Status, StopRule};
 use crate::constraint::{ConstraintError, Fixed, Freedoms};
-use crate::distortion::{Image, Validity, face_maps, folded_faces};
+use crate::distortion::{Image, Validity, face_maps};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Mips, Rest};
 use crate::objective::{Objective, Terms};
@@ -28,10 +31,20 @@ use crate::quad_graph::metric::RestMetric;
 /// The name of the backend in reports.
 const BACKEND: &str = "newton (valid)";
 
-/// Iterations of one stage at most, where nothing else is said: as many as a mesh of this many faces has one, within bounds. Long
-/// protrusions converge slowly, by a few per cent a step; what is reached by then is valid.
-const FACES_TIMES_ITERATIONS: usize = 10_000_000;
-const MOST_ITERATIONS: std::ops::RangeInclusive<usize> = 150..=1000;
+/// Iterations of one stage at most, where nothing else is said: the less the larger the mesh is, within bounds.
+struct Patience {
+    faces_times_iterations: usize,
+    iterations: RangeInclusive<usize>,
+}
+
+impl Patience {
+    fn with(&self, faces: usize) -> usize {
+        (self.faces_times_iterations / faces).clamp(*self.iterations.start(), *self.iterations.end())
+    }
+}
+
+/// Long protrusions converge slowly, by a few per cent a step; what is reached by then is valid.
+const PATIENCE: Patience = Patience { faces_times_iterations: 10_000_000, iterations: 150..=1000 };
 
 impl MapOptions {
     /// Whether the plain map is to be replaced where it is not valid.
@@ -61,7 +74,7 @@ pub(super) fn kept_or_replaced(
 ) -> Result<Map, MapError> {
     let (kept, folded, spent) = match plain {
         Ok(map) => {
-            let validity = domain.validity(&map.z[..domain.disc.positions.len()]);
+            let validity = domain.validity(&map.z);
             let spent = map.iterations;
             if accepts(options, &validity) {
                 let looks_further = options.valid == Valid::BestQc
@@ -71,13 +84,10 @@ pub(super) fn kept_or_replaced(
                     false => return Ok(map),
                 }
             } else {
-                let folded = Some(validity.folded.len());
-                let left = options.max_iterations.map(|n| n.saturating_sub(spent));
-                let (found, more) = near_folds::near_folds(options, domain, &map, left, watch)?;
-                if let Some(found) = found {
-                    return Ok(Map { iterations: spent + more, repaired: true, plain_folded: folded, ..found });
+                match unfolded(options, domain, &map, watch)? {
+                    (Some(found), _) => return Ok(found),
+                    (None, spent) => (None, Some(validity.folded.len()), spent),
                 }
-                (None, folded, spent + more)
             }
         }
         Err(MapError::NotConverged { iterations, .. }) => (None, None, iterations),
@@ -101,9 +111,7 @@ pub(super) fn kept_or_replaced(
     let found = found.map(|map| Map { iterations: map.iterations + spent, plain_folded: folded, ..map });
     let Some(plain) = kept else { return Ok(Map { repaired: true, ..found? }) };
     let plain_shear = shear(domain, &plain);
-    let is_better = |map: &Map| {
-        accepts(options, &domain.validity(&map.z[..domain.disc.positions.len()])) && shear(domain, map) < plain_shear
-    };
+    let is_better = |map: &Map| accepts(options, &domain.validity(&map.z)) && shear(domain, map) < plain_shear;
     Ok(match found.ok().filter(is_better) {
         Some(map) => Map { plain_shear: Some(plain_shear), ..map },
         None => plain,
@@ -120,18 +128,18 @@ fn shear(domain: &Domain, map: &Map) -> f64 {
     sum / count.max(1) as f64
 }
 
-/// The plain map with its folds taken out where they are, if it has boundary points out of order; `None` where that does not do.
+/// The plain map with its folds taken out where they are, `None` where that does not do; and the iterations of both.
 pub(super) fn unfolded(
     options: &MapOptions,
     domain: &Domain,
     plain: &Map,
     watch: &mut dyn Observer,
-) -> Result<Option<Map>, MapError> {
+) -> Result<(Option<Map>, usize), MapError> {
     let left = options.max_iterations.map(|n| n.saturating_sub(plain.iterations));
-    let folded = folded_faces(&domain.disc, |c| plain.z[domain.disc.faces.corners()[c] as usize]).len();
-    let (found, spent) = near_folds::near_folds(options, domain, plain, left, watch)?;
-    let iterations = plain.iterations + spent;
-    Ok(found.map(|map| Map { iterations, repaired: true, plain_folded: Some(folded), ..map }))
+    let (found, more) = near_folds::near_folds(options, domain, plain, left, watch)?;
+    let iterations = plain.iterations + more;
+    let folded = || domain.folded(&plain.z).len();
+    Ok((found.map(|map| Map { iterations, repaired: true, plain_folded: Some(folded()), ..map }), iterations))
 }
 
 /// Whether a map is as one-to-one as is asked for: free maps may overlap, unless otherwise said.
@@ -140,6 +148,11 @@ fn accepts(options: &MapOptions, validity: &Validity) -> bool {
         Boundary::Free if options.valid != Valid::OneToOne => validity.is_locally_one_to_one(),
         _ => validity.is_one_to_one(),
     }
+}
+
+/// The point in the middle of the arc of the unit circle from a to b, counter-clockwise.
+fn middle_of_arc(a: Complex64, b: Complex64) -> Complex64 {
+    a * Complex64::cis(0.5 * (b * a.conj()).arg().rem_euclid(2.0 * PI))
 }
 
 /// What a repair knows.
@@ -170,6 +183,11 @@ impl Stage {
     fn start(z: Vec<Complex64>) -> Self {
         Stage { z, energies: Vec::new(), total: None, gradient_norm: None, status: Status::Precision, iterations: 0 }
     }
+
+    /// Whether nothing more is to be done, with so many iterations of all stages where there is a limit.
+    fn is_over(&self, left: Option<usize>) -> bool {
+        self.status == Status::Interrupted || left.is_some_and(|n| self.iterations >= n)
+    }
 }
 
 impl Repair<'_> {
@@ -191,7 +209,7 @@ impl Repair<'_> {
 
     /// Goes on from `stage`, by as many iterations as are left.
     fn minimise(&self, objective: &Objective, stage: Stage, watch: &mut dyn Observer) -> Result<Stage, MapError> {
-        self.minimise_within(self.most_iterations(), objective, stage, watch)
+        self.minimise_within(PATIENCE.with(self.domain.disc.faces.len()), objective, stage, watch)
     }
 
     /// The same by so many iterations at most.
@@ -205,20 +223,9 @@ impl Repair<'_> {
         minimise(objective, stage, Limits { left: self.left, most, gain: self.options.tolerance }, watch)
     }
 
-    /// Iterations of one stage at most, if there is no other limit.
-    fn most_iterations(&self) -> usize {
-        let most = FACES_TIMES_ITERATIONS / self.domain.disc.faces.len();
-        most.clamp(*MOST_ITERATIONS.start(), *MOST_ITERATIONS.end())
-    }
-
     /// Whether the exact check accepts the map that a stage has reached.
     fn accepts(&self, stage: &Stage) -> bool {
-        accepts(self.options, &self.domain.validity(&stage.z[..self.domain.disc.positions.len()]))
-    }
-
-    /// Whether nothing more is to be done.
-    fn is_over(&self, stage: &Stage) -> bool {
-        stage.status == Status::Interrupted || self.left.is_some_and(|n| stage.iterations >= n)
+        accepts(self.options, &self.domain.validity(&stage.z))
     }
 
     /// The map that a stage has reached.

@@ -7,10 +7,10 @@ use num_complex::Complex64;
 
 use super::in_order::put_in_order;
 use super::patch::{FacesAt, Patch};
-use super::{Limits, Stage, accepts, minimise};
+use super::{Limits, Stage, accepts, middle_of_arc, minimise};
 use crate::backend::{Observer, Status};
 use crate::constraint::Freedoms;
-use crate::distortion::{Image, face_maps, folded_faces};
+use crate::distortion::{Image, face_maps};
 use crate::energy::conformal::{self, Dirichlet, Weight};
 use crate::energy::{Conformal, Energy, Gaps, Metric, Mips, Unfolding};
 use crate::map::reduced::{circle_energy, length_energy};
@@ -114,8 +114,7 @@ pub(super) fn near_folds(
             break;
         }
     }
-    let validity = domain.validity(&z[..domain.disc.positions.len()]);
-    if !accepts(options, &validity) || shear(domain, &z).1 > LARGEST_SHEAR {
+    if !accepts(options, &domain.validity(&z)) || shear(domain, &z).1 > LARGEST_SHEAR {
         return Ok((None, spent));
     }
     let graph = &domain.graph;
@@ -181,7 +180,7 @@ fn shear(domain: &Domain, z: &[Complex64]) -> (Vec<u32>, f64) {
 fn seeds(options: &MapOptions, domain: &Domain, at: &FacesAt, z: &[Complex64], sheared: Vec<u32>) -> Vec<u32> {
     let disc = &domain.disc;
     let mut seeds = sheared;
-    seeds.extend(folded_faces(disc, |c| z[disc.faces.corners()[c] as usize]));
+    seeds.extend(domain.folded(z));
     if options.boundary == Boundary::Circle {
         let n = disc.boundary.len();
         for k in 0..n {
@@ -256,22 +255,22 @@ impl Work<'_> {
     /// By an energy that is finite on folds, ever less so. The boundary of a circle stays where it is.
     fn unfold(&self, patch: &Patch, mut stage: Stage, watch: &mut dyn Observer) -> Result<Stage, MapError> {
         let mips = Mips::new(patch.rest(Weight::Integral))?;
-        let scale = scales(patch, &stage.z)?;
+        let triangles = Unfolding::triangles(patch.rest(Weight::Integral))?;
+        let scale = scales(patch, &triangles.stretch(&stage.z));
         let mut share = FIRST_SHARE;
         for _ in 0..STAGES {
-            let stops = stage.status == Status::Interrupted || self.left.is_some_and(|n| stage.iterations >= n);
-            if stops || mips.value(&stage.z).is_finite() {
+            if stage.is_over(self.left) || mips.value(&stage.z).is_finite() {
                 break;
             }
-            let energy = || Unfolding::new(patch.rest(Weight::Integral), &scale, share);
-            let unfolding = energy()?;
-            let before = unfolding.value(&stage.z);
-            let objective = self.objective(patch, vec![(1.0, Box::new(energy()?))], &stage.z, false);
+            let unfolding = Unfolding::new(patch.rest(Weight::Integral), &scale, share)?;
+            let objective = self.objective(patch, vec![(1.0, Box::new(unfolding))], &stage.z, false);
+            let energy = |z: &[Complex64]| objective.terms[0].1.value(z);
+            let before = energy(&stage.z);
             let limits = Limits { left: self.left, most: ITERATIONS, gain: GAIN_ON_THE_WAY };
             stage = minimise(&objective, stage, limits, watch)?;
-            let after = unfolding.value(&stage.z);
+            let after = energy(&stage.z);
             let lowest =
-                unfolding.area_ratios(&stage.z).iter().zip(&scale).map(|(j, s)| j / s).fold(f64::INFINITY, f64::min);
+                triangles.area_ratios(&stage.z).iter().zip(&scale).map(|(j, s)| j / s).fold(f64::INFINITY, f64::min);
             // Garanzha et al., with σ the share of the energy that has been gained; Newton's steps gain most of it.
             let gained = (1.0 - after / before).max(0.5);
             let root = f64::hypot(lowest, share);
@@ -303,11 +302,10 @@ impl Work<'_> {
 }
 
 /// About the ratio of areas that each triangle is to come to: of the mean sizes at its corners, the largest.
-fn scales(patch: &Patch, z: &[Complex64]) -> Result<Vec<f64>, MapError> {
+fn scales(patch: &Patch, stretch: &[f64]) -> Vec<f64> {
     let triangles = &patch.metric.triangles;
-    let stretch = Unfolding::new(patch.rest(Weight::Integral), &vec![1.0; triangles.len()], 1.0)?.stretch(z);
     let mut sums = vec![(0.0, 0.0); patch.graph.vertices];
-    for (t, s) in triangles.iter().zip(&stretch).filter(|(_, s)| **s > 0.0) {
+    for (t, s) in triangles.iter().zip(stretch).filter(|(_, s)| **s > 0.0) {
         for &v in &t.vertices {
             let (sum, count) = &mut sums[v as usize];
             *sum += s.ln();
@@ -318,7 +316,7 @@ fn scales(patch: &Patch, z: &[Complex64]) -> Result<Vec<f64>, MapError> {
         let (sum, count) = sums[v as usize];
         if count > 0.0 { f64::exp(sum / count) } else { 0.0 }
     };
-    Ok(triangles.iter().map(|t| t.vertices.map(mean).into_iter().fold(f64::MIN_POSITIVE, f64::max)).collect())
+    triangles.iter().map(|t| t.vertices.map(mean).into_iter().fold(f64::MIN_POSITIVE, f64::max)).collect()
 }
 
 /// Dual vertices at the barycentres of their faces, those on the boundary in the middle.
@@ -341,7 +339,7 @@ fn place_duals(patch: &Patch, is_circle: bool, z: &mut [Complex64]) {
         let [[a, dual], [_, b]] = [pair[0], pair[1]];
         let [a, b] = [a, b].map(|v| z[v as usize]);
         z[dual as usize] = match is_circle {
-            true => a * Complex64::cis(0.5 * (b * a.conj()).arg().rem_euclid(2.0 * PI)),
+            true => middle_of_arc(a, b),
             false => 0.5 * (a + b),
         };
     }
