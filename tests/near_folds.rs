@@ -2,8 +2,11 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::Stopper;
 use num_complex::Complex64;
-use riemap::backend::{Iteration, Observer, Phase, Silent};
+use riemap::backend::Silent;
 use riemap::energy::conformal::{self, Weight};
 use riemap::energy::{Curvature, Energy, Mips, Rest, Unfolding};
 use riemap::input::Input;
@@ -47,21 +50,6 @@ fn folds_of_free_maps_are_taken_out_where_they_are() {
     let (plain, found) = (free(Valid::Off), free(Valid::Auto));
     println!("{} folded, then {}", plain.validity.folded.len(), found.map.backend);
     assert!(found.validity.is_locally_one_to_one());
-}
-
-/// Asks for a stop after this many iterations in all.
-struct Stopper(usize);
-
-impl Observer for Stopper {
-    fn phase(&mut self, _phase: Phase) {}
-
-    fn iteration(&mut self, _iteration: &Iteration) {
-        self.0 = self.0.saturating_sub(1);
-    }
-
-    fn stop_requested(&self) -> bool {
-        self.0 == 0
-    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod common;
 
 use common::*;
 use num_complex::Complex64;
-use riemap::backend::{LINEAR_BACKENDS, MINIMISERS, Observer, Phase, Silent, Status, linear_backend};
+use riemap::backend::{LINEAR_BACKENDS, MINIMISERS, Silent, Status, linear_backend};
 use riemap::constraint::float_white_back;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
@@ -303,23 +303,12 @@ fn what_does_not_converge_is_an_error_unless_the_end_was_set() {
     }
 }
 
-/// Asks for a stop from the start.
-struct Impatient;
-
-impl Observer for Impatient {
-    fn phase(&mut self, _phase: Phase) {}
-
-    fn stop_requested(&self) -> bool {
-        true
-    }
-}
-
 #[test]
 fn an_interrupted_map_is_the_initial_one_and_says_so() {
     for (energy, keep_order) in [("H + C", false), ("H + C", true), ("H + Lb", false)] {
         let input = Input::open("graph:cos+cos?n=9").unwrap();
         let options = MapOptions { keep_order, ..options(energy, Weight::Integral) };
-        let mapped = run(&input, &options, &mut Impatient).unwrap();
+        let mapped = run(&input, &options, &mut Stopper(0)).unwrap();
         assert_eq!((mapped.map.outcome, mapped.map.iterations), (Outcome::Minimised(Status::Interrupted), 0));
         assert!(mapped.map.z.iter().all(|z| z.is_finite()) && mapped.distortion.flipped == 0);
     }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod apart;
+mod claims;
 mod command;
 mod data;
 mod full;

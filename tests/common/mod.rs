@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 
 use num_complex::Complex64;
+use riemap::backend::{Iteration, Observer, Phase};
 use riemap::constraint::Fixed;
 use riemap::experiment::data_folders;
 use riemap::quad_graph::QuadGraph;
@@ -347,4 +348,19 @@ pub fn graphs() -> Vec<(String, QuadGraph)> {
         }
     }
     graphs
+}
+
+/// Asks for a stop after this many iterations in all.
+pub struct Stopper(pub usize);
+
+impl Observer for Stopper {
+    fn phase(&mut self, _phase: Phase) {}
+
+    fn iteration(&mut self, _iteration: &Iteration) {
+        self.0 = self.0.saturating_sub(1);
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.0 == 0
+    }
 }
