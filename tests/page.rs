@@ -193,12 +193,13 @@ fn a_page_shows_the_bars_of_bench_where_there_are_some() {
         |what: &str, holds: &str| format!(r#"{{"what": "{what}", "measured": 0.5, "bound": "≤ 1", "holds": {holds}}}"#);
     let bars = [bar("a < b", "true"), bar("c", "false"), bar("d", "null")].join(", ");
     fs::write(bench.join("bench.json"), format!(r#"{{"bars": [{bars}]}}"#)).unwrap();
-    fs::write(bench.join("solve.svg"), "<svg xmlns=\"http://www.w3.org/2000/svg\"/>").unwrap();
+    fs::write(bench.join("solve.svg"), "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"50\" height=\"40\"/>")
+        .unwrap();
     let with = made(&[("fig01", FIGURE)], "1/1", folder.path());
     assert!(with.contains("1 of 3 bars hold"));
     assert!(with.contains("<a href=\"#part-speed\">") && with.contains("<h2 id=\"part-speed\">"));
     assert!(with.contains("a &lt; b") && with.contains("not measured") && !with.contains("a < b"));
-    assert!(with.contains("src=\"bench/solve.svg\"") && !with.contains("memory.svg"));
+    assert!(with.contains("src=\"bench/solve.svg\" width=\"50\" height=\"40\"") && !with.contains("memory.svg"));
 
     // A record that is none is as good as none.
     fs::write(bench.join("bench.json"), "{").unwrap();

@@ -1,7 +1,7 @@
 //! Text and pictures as HTML.
 
 use std::fmt::Write as _;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
@@ -50,6 +50,14 @@ pub(super) fn png_size(path: &Path) -> Option<[u32; 2]> {
     File::open(path).ok()?.read_exact(&mut header).ok()?;
     let number = |at: usize| u32::from_be_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]]);
     header.starts_with(b"\x89PNG\r\n\x1a\n").then(|| [number(16), number(20)])
+}
+
+/// Width and height of an SVG file, from its first tag; `None` where that does not have them in pixels.
+pub(super) fn svg_size(path: &Path) -> Option<[u32; 2]> {
+    let text = fs::read_to_string(path).ok()?;
+    let tag = text[text.find("<svg")?..].split('>').next()?;
+    let number = |name: &str| tag.split(&format!(" {name}=\"")).nth(1)?.split('"').next()?.parse().ok();
+    Some([number("width")?, number("height")?])
 }
 
 /// A picture in `figures/` of `results`, linked to its vectors where there are some; `None` where it is none that shows.

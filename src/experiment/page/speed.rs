@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::html::{escape, folded, table};
+use super::html::{escape, folded, svg_size, table};
 use crate::experiment::grid::{Grid, number};
 
 /// The heading's anchor.
@@ -29,10 +29,13 @@ pub(super) fn part(results: &Path) -> Option<String> {
          {holds} of {} bars hold.</p>\n<section aria-label=\"{HEADING}\">\n",
         bars.len()
     );
-    for (file, alt) in PLOTS.iter().filter(|(file, _)| folder.join(file).is_file()) {
+    // Without its size a picture that has not been read yet takes no place.
+    let sized = PLOTS.iter().filter_map(|(file, alt)| Some((file, alt, svg_size(&folder.join(file))?)));
+    for (file, alt, [width, height]) in sized {
         let _ = writeln!(
             text,
-            "<figure><a href=\"bench/{file}\"><img src=\"bench/{file}\" loading=\"lazy\" alt=\"{alt}\"></a></figure>"
+            "<figure><a href=\"bench/{file}\"><img src=\"bench/{file}\" width=\"{width}\" height=\"{height}\" loading=\"lazy\" \
+             alt=\"{alt}\"></a></figure>"
         );
     }
     let word = |bar: &Value| match bar["holds"].as_bool() {
