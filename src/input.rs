@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::io::{self, ReadError, Sample, VertexText, VolumeError, VolumeOptions};
 use crate::surface::Surface;
-use crate::surface::diagnosis::{Diagnosis, Finding};
+use crate::surface::topology::diagnosis::{Diagnosis, Finding};
 use crate::surface::digital::{self, Adjacency, Digital, DigitalError};
 use crate::surface::generate::{GenerateError, generate, is_generated_name};
 

@@ -26,16 +26,16 @@
 //! | [`energy`] | H, C, A, L, L', MIPS, SD with all derivatives; `H + 0.5 L` as an expression |
 //! | [`constraint`] | held vertices, shapes of the boundary, gauges; elimination x = Z y + x0 |
 //! | [`problem`], [`objective`] | the linear problem; the nonlinear one |
-//! | [`backend`] | direct solvers and minimisers by name |
+//! | [`solver`] | direct solvers and minimisers by name |
 //! | [`periodic`] | maps of closed surfaces of genus 1: periods, their ratio, textures without seams |
 //! | [`map`] | all of it in one call |
 //! | [`distortion`], [`report`], [`figure`] | how good a map is, its record, its picture |
 //! | [`io`], [`input`] | mesh files, volumes; surfaces by file or name |
 //! | [`verify`], [`libigl`] | the cotan equivalence, checked against libigl itself |
 //! | [`peer`] | maps of other programs, measured as ours are |
-//! | [`mod@bench`] | speed against other programs |
+//! | [`bench`](mod@app::bench) | speed against other programs |
 //! | [`experiment`] | configurations, runs, tables, plots |
-//! | [`predicate`], [`polygon`], [`moebius`], [`median`](mod@median), [`process`] | exact signs of areas; whether a polygon is simple; maps of the disc to itself; the middle of numbers; processes with a time limit |
+//! | [`predicate`], [`polygon`], [`moebius`], [`median`](mod@app::measure::median), [`process`] | exact signs of areas; whether a polygon is simple; maps of the disc to itself; the middle of numbers; processes with a time limit |
 //! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
 //!
 //! # One map
@@ -69,30 +69,18 @@
 //! The printed H has no i before ρ, A's first term lost a conjugate, and the cotangents a factor ½; here they are as they
 //! must be.
 
-pub mod backend;
-pub mod bench;
+pub mod app;
 pub mod constraint;
 pub mod distortion;
 pub mod energy;
-pub mod experiment;
 pub mod figure;
+pub mod geometry;
 pub mod input;
-pub mod interop;
 pub mod io;
-pub mod libigl;
 pub mod map;
-pub mod median;
-pub mod moebius;
-pub mod objective;
-pub mod peer;
-pub mod periodic;
-pub mod polygon;
-pub mod predicate;
 pub mod problem;
-pub mod process;
 pub mod quad_graph;
 pub mod report;
+pub mod solver;
 pub mod sparse;
-pub mod stopwatch;
 pub mod surface;
-pub mod verify;

@@ -1,11 +1,10 @@
 //! The command line: parses, calls the library, prints.
 
-mod cli;
-
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
+use riemap::app::cli;
 
 fn main() -> ExitCode {
     let mut out = io::stdout().lock();

@@ -6,11 +6,11 @@ use serde::Serialize;
 use crate::distortion::{Distortion, Validity};
 use crate::input::Input;
 use crate::map::{Domain, Exactly, LengthsRecord, Map, Mapped};
-use crate::periodic::PeriodsRecord;
+use crate::map::periodic::PeriodsRecord;
 use crate::quad_graph::QuadGraph;
 use crate::surface::cut::CutRecord;
 use crate::surface::digital::{Adjacency, Digital};
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::topology::Component;
 
 /// One map, from input to distortion.

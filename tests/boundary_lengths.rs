@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use num_complex::Complex64;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
 use riemap::io::{BoundaryLengths, LengthUnit, PerEdge, read_boundary_lengths};
 use riemap::map::{Boundary, LengthsError, LengthsRecord, MapError, MapOptions, Mapped, run};

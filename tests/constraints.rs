@@ -6,7 +6,7 @@ use common::*;
 use num_complex::Complex64;
 use riemap::constraint::{ConstraintError, Fixed, Shape, on_shape};
 use riemap::energy::conformal::Weight;
-use riemap::problem::LinearProblem;
+use riemap::problem::linear::LinearProblem;
 
 #[test]
 fn constraints_that_leave_freedoms_are_refused() {

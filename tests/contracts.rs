@@ -5,12 +5,12 @@ mod common;
 use common::*;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
-use riemap::backend::{
+use riemap::solver::{
     LINEAR_BACKENDS, Observer, Phase, Silent, SolveError, Unsuitable, automatic, linear_backend, solve_linear,
 };
 use riemap::constraint::{Fixed, Shape, on_shape};
 use riemap::energy::conformal::{self, Weight};
-use riemap::problem::{LinearProblem, system};
+use riemap::problem::linear::{LinearProblem, system};
 use riemap::quad_graph::QuadGraph;
 
 /// What is held.

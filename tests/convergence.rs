@@ -4,10 +4,10 @@ mod common;
 
 use common::*;
 use num_complex::Complex64;
-use riemap::backend::{Silent, solve_linear};
+use riemap::solver::{Silent, solve_linear};
 use riemap::constraint::Fixed;
 use riemap::energy::conformal::Weight;
-use riemap::problem::LinearProblem;
+use riemap::problem::linear::LinearProblem;
 use riemap::quad_graph::QuadGraph;
 use riemap::surface::generate::generate;
 

@@ -6,8 +6,8 @@ mod common;
 
 use common::{disc, largest_difference, surface};
 use num_complex::Complex64;
-use riemap::backend::Silent;
-use riemap::backend::convex::EDGE_WEIGHTS;
+use riemap::solver::Silent;
+use riemap::solver::convex::EDGE_WEIGHTS;
 use riemap::input::Input;
 use riemap::map::{self, Boundary, MapError, MapOptions, Mapped, Pin, Valid};
 use riemap::surface::Surface;

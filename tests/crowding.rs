@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
 use riemap::map::{Boundary, MapOptions, Mapped, run};
 

@@ -9,16 +9,16 @@ use common::*;
 use opening::*;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::map::{Domain, MapError, MapOptions, Pin};
 use riemap::surface::Surface;
 use riemap::surface::cut::{CutError, Opening};
-use riemap::surface::diagnosis::{Diagnosis, Finding};
+use riemap::surface::topology::diagnosis::{Diagnosis, Finding};
 use riemap::surface::digital::{Adjacency, Solid, boundary};
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::edges::Edges;
 use riemap::surface::topology::Topology;
-use riemap::surface::tree_cotree::{EdgeGraph, TreeCotree};
+use riemap::surface::topology::tree_cotree::{EdgeGraph, TreeCotree};
 
 fn lengths(s: &Surface, edges: &Edges) -> Vec<f64> {
     edges.ends.iter().map(|&[a, b]| distance(s.positions[a as usize], s.positions[b as usize])).collect()

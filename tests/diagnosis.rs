@@ -4,8 +4,8 @@ mod common;
 
 use common::*;
 use riemap::surface::Surface;
-use riemap::surface::diagnosis::{Diagnosis, Finding, Severity};
-use riemap::surface::disc::Disc;
+use riemap::surface::topology::diagnosis::{Diagnosis, Finding, Severity};
+use riemap::surface::oriented_mesh::Disc;
 
 fn findings(s: &Surface) -> Vec<Finding> {
     Diagnosis::new(s).findings

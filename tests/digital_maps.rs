@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::{Input, InputOptions};
 use riemap::io::write_vol;
 use riemap::map::{self, Boundary, MapOptions, Mapped, Valid};

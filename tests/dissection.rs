@@ -12,7 +12,7 @@ use riemap::input::Input;
 use riemap::map::{Domain, MapOptions};
 use riemap::quad_graph::QuadGraph;
 use riemap::sparse::{Order, Pattern, PrunedCholesky, Stencils, dissect};
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 
 fn graph(name: &str) -> QuadGraph {
     let input = Input::open(name).unwrap();

@@ -7,7 +7,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use riemap::experiment::{self, Batch, Config, Event, Outcome, Record, Shard, table};
+use riemap::app::experiment::{self, Batch, Config, Event, Outcome, Record, Shard, table};
 use riemap::figure::{Axis, FigureError, Format, Plot, Reference, Series};
 use serde_json::Value;
 use tempfile::TempDir;

@@ -4,10 +4,10 @@ mod common;
 
 use common::*;
 use num_complex::Complex64;
-use riemap::backend::{LinearBackend, Observer, Phase, Silent, SolveError, Unsuitable, solve_linear};
+use riemap::solver::{LinearBackend, Observer, Phase, Silent, SolveError, Unsuitable, solve_linear};
 use riemap::constraint::{Shape, on_shape};
 use riemap::energy::conformal::{self, Weight};
-use riemap::problem::LinearProblem;
+use riemap::problem::linear::LinearProblem;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint};
 use riemap::surface::generate::{Form, Immersion, Parameter, Row, generate_from};

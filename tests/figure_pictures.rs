@@ -8,11 +8,11 @@ use std::path::Path;
 
 use num_complex::Complex64;
 use riemap::distortion::{Image, corner_errors, face_maps};
-use riemap::experiment::{self, Batch, Caption, Config, Outcome, Record, Shard};
+use riemap::app::experiment::{self, Batch, Caption, Config, Outcome, Record, Shard};
 use riemap::figure::{FlatMap, Format, MARK};
 use riemap::input::Input;
 use riemap::map::{self, MapOptions};
-use riemap::stopwatch::Stopwatch;
+use riemap::app::measure::stopwatch::Stopwatch;
 use serde_json::json;
 
 /// Runs and sums up a config.

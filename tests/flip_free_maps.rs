@@ -4,7 +4,7 @@
 
 mod common;
 
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
 use riemap::map::{self, Boundary, MapError, MapOptions, Mapped};
 

@@ -7,13 +7,13 @@ use std::f64::consts::TAU;
 
 use common::*;
 use opening::*;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::distortion::{Distortion, Image};
 use riemap::map::{Domain, MapOptions};
 use riemap::surface::Surface;
 use riemap::surface::cut::{CutError, Opening};
-use riemap::surface::diagnosis::Diagnosis;
-use riemap::surface::disc::Disc;
+use riemap::surface::topology::diagnosis::Diagnosis;
+use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::topology::Topology;
 
 #[test]

@@ -4,12 +4,12 @@ mod common;
 
 use common::*;
 use num_complex::Complex64;
-use riemap::backend::{LINEAR_BACKENDS, Silent, SolveError, solve_linear};
+use riemap::solver::{LINEAR_BACKENDS, Silent, SolveError, solve_linear};
 use riemap::energy::conformal::{self, Weight};
-use riemap::problem::{LinearProblem, system};
+use riemap::problem::linear::{LinearProblem, system};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 
 /// Planar discs, jittered, random, with obtuse angles.
 const PLANAR_TRIANGLES: [&str; 5] = [

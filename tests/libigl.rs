@@ -7,12 +7,12 @@
 
 use std::path::{Path, PathBuf};
 
-use riemap::backend::Silent;
-use riemap::experiment::data_folders;
+use riemap::solver::Silent;
+use riemap::app::experiment::data_folders;
 use riemap::input::Input;
-use riemap::libigl::Environment;
-use riemap::surface::diagnosis::Diagnosis;
-use riemap::verify::{Comparison, SURFACES, TOLERANCE, compare, cotan_map};
+use riemap::app::compare::libigl::Environment;
+use riemap::surface::topology::diagnosis::Diagnosis;
+use riemap::app::compare::verify::{Comparison, SURFACES, TOLERANCE, compare, cotan_map};
 
 fn environment() -> Environment {
     Environment::ensure().unwrap_or_else(|error| panic!("{error}"))

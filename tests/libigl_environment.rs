@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use riemap::libigl::{Environment, LibiglError, Settings, harmonic};
+use riemap::app::compare::libigl::{Environment, LibiglError, Settings, harmonic};
 use std::path::Path;
 
 /// A triangulated n × n grid in the plane, inner vertices displaced by up to 0.24 cells (many obtuse angles; below
@@ -68,7 +68,7 @@ fn linear_functions_are_reproduced_on_planar_meshes() {
     for (&v, value) in grid.boundary.iter().zip(&fixed) {
         assert_eq!(map.uv[v as usize], *value);
     }
-    assert_eq!(map.version, riemap::libigl::VERSION);
+    assert_eq!(map.version, riemap::app::compare::libigl::VERSION);
     assert!(map.seconds_cpu >= 0.0 && map.seconds_cpu < 10.0 && map.seconds_wall > 0.0);
 }
 
@@ -181,7 +181,7 @@ esac
         let script = SCRIPT
             .replace("LOG", path("log").to_str().unwrap())
             .replace("FOLDER", folder.path().to_str().unwrap())
-            .replace("VERSION", riemap::libigl::VERSION);
+            .replace("VERSION", riemap::app::compare::libigl::VERSION);
         fs::write(path("script"), script).unwrap();
         // By another process: a file this one has open for writing, or a child just forked has, cannot be executed.
         let copy = Command::new("install").args(["-m", "755"]).arg(path("script")).arg(path("python")).status();

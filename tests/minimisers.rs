@@ -9,16 +9,16 @@ use std::f64::consts::TAU;
 use common::*;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
-use riemap::backend::nonlinear::{LevenbergMarquardt, smallest_singular_value};
-use riemap::backend::{
+use riemap::solver::minimise::{LevenbergMarquardt, smallest_singular_value};
+use riemap::solver::{
     Iteration, MINIMISERS, MinimiseError, Minimiser, Minimum, Observer, Phase, Silent, Status, StopRule, minimiser,
     solve_linear,
 };
 use riemap::constraint::{Fixed, Freedoms, hold_gauge, on_circle, spread_points};
 use riemap::energy::conformal::{Dirichlet, Weight};
 use riemap::energy::{Circle, Conformal, Curvature, Expression, Rest, energy, jacobian};
-use riemap::objective::Objective;
-use riemap::problem::LinearProblem;
+use riemap::problem::nonlinear::Objective;
+use riemap::problem::linear::LinearProblem;
 use riemap::quad_graph::metric::RestMetric;
 
 /// An objective and the start of §4 of the design.

@@ -6,7 +6,7 @@ mod common;
 
 use common::Stopper;
 use num_complex::Complex64;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::energy::conformal::{self, Weight};
 use riemap::energy::{Curvature, Energy, Mips, Rest, Unfolding};
 use riemap::input::Input;

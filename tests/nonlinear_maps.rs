@@ -6,7 +6,7 @@ mod common;
 
 use common::*;
 use num_complex::Complex64;
-use riemap::backend::{LINEAR_BACKENDS, MINIMISERS, Silent, Status, linear_backend};
+use riemap::solver::{LINEAR_BACKENDS, MINIMISERS, Silent, Status, linear_backend};
 use riemap::constraint::float_white_back;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;

@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::Command;
 
-use riemap::experiment::{Batch, Config, Settings, Shard, page};
+use riemap::app::experiment::{Batch, Config, Settings, Shard, page};
 use tempfile::TempDir;
 
 const FIGURE: &str = r#"

@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used)]
 
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
-use riemap::libigl::{Environment, LibiglError, lscm};
+use riemap::app::compare::libigl::{Environment, LibiglError, lscm};
 use riemap::map::{Boundary, MapOptions, Mapped, Valid, run};
-use riemap::peer::{PeerError, peer};
+use riemap::app::compare::peer::{PeerError, peer};
 use riemap::surface::cut::Opening;
 
 fn map(name: &str, source: &str) -> Mapped {

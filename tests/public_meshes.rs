@@ -4,8 +4,8 @@
 mod common;
 
 use common::data_folder;
-use riemap::surface::diagnosis::{Diagnosis, Finding, Finding::*};
-use riemap::surface::disc::Disc;
+use riemap::surface::topology::diagnosis::{Diagnosis, Finding, Finding::*};
+use riemap::surface::oriented_mesh::Disc;
 
 /// What one component is: first face, faces, vertices, edges, boundary loops, genus (of manifold ones).
 type Part = (u32, usize, usize, usize, &'static [usize], Option<u64>);

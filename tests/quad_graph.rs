@@ -9,7 +9,7 @@ use proptest::test_runner::RngSeed;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, DualPoint, dual_point};
 use riemap::quad_graph::rho::{extrinsic, with_normal};
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 
 /// Lengths and angles of random triangles carry a few dozen roundings.
 const ROUNDING: f64 = 1e-13;
@@ -207,7 +207,7 @@ proptest! {
             vec![[0., 0., 0.], [1., 0., 0.], apex(&mut random, 1.0), apex(&mut random, -1.0)],
             [[0, 1, 2], [1, 0, 3]],
         );
-        let diagnosis = riemap::surface::diagnosis::Diagnosis::new(&s);
+        let diagnosis = riemap::surface::topology::diagnosis::Diagnosis::new(&s);
         prop_assume!(diagnosis.findings.is_empty());
         let disc = Disc::new(&s, &diagnosis).expect("two triangles");
         for name in ["barycentre", "incentre"] {

@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
 use riemap::quad_graph::metric::RestMetric;
 use riemap::quad_graph::{QuadGraph, QuadGraphError, RestSource, TangentPlanes};
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 
 /// Two triangles or one quad, behind an unused vertex, so that the disc's numbers are not the source's.
 fn shifted(faces: &[&[u32]], positions: &[[f64; 3]]) -> Disc {

@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 
 use common::*;
 use num_complex::Complex64;
-use riemap::backend::Silent;
-use riemap::backend::reduced::{Reduction, Unreduced};
+use riemap::solver::Silent;
+use riemap::solver::boundary::{Reduction, Unreduced};
 use riemap::energy::conformal::{Weight, normal_product, normal_product_scale, weights};
 use riemap::input::Input;
 use riemap::map::{Boundary, Exactly, MapError, MapOptions, Mapped, Pin, RhoSource, Valid, run};

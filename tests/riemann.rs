@@ -5,7 +5,7 @@
 mod common;
 
 use common::*;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
 use riemap::map::{MapOptions, run};

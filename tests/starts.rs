@@ -6,7 +6,7 @@ mod common;
 
 use common::{Random, shuffled};
 use num_complex::Complex64;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
 use riemap::map::{Boundary, MapOptions, Mapped, Start, Valid, run};

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::num::NonZeroUsize;
 
-use riemap::backend::Iteration;
-use riemap::experiment::{Abscissa, Batch, Config, Event, FitSpec, Outcome, PlotSpec, Record, Shard, table, trace};
-use riemap::stopwatch::Traced;
+use riemap::solver::Iteration;
+use riemap::app::experiment::{Abscissa, Batch, Config, Event, FitSpec, Outcome, PlotSpec, Record, Shard, table, trace};
+use riemap::app::measure::stopwatch::Traced;
 use serde_json::{Value, json};
 
 /// A config whose plot `NAME` is `plot`, read as a file is.
@@ -283,7 +283,7 @@ fn convergence_is_drawn_of_any_sweep_with_a_panel_for_what_is_no_curve() {
     assert!(
         lowest > 0.1 && panels.plots.iter().flat_map(|p| &p.series).flat_map(|s| &s.points).all(|p| p[1] >= -1e-13)
     );
-    let files: Vec<String> = riemap::experiment::summarise(&config, folder.path())
+    let files: Vec<String> = riemap::app::experiment::summarise(&config, folder.path())
         .unwrap()
         .files
         .iter()

@@ -5,11 +5,11 @@
 mod common;
 
 use common::*;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
 use riemap::map::{Boundary, MapError, MapOptions, Mapped, run};
 use riemap::report::{Cost, Report};
-use riemap::surface::diagnosis::Severity;
+use riemap::surface::topology::diagnosis::Severity;
 use riemap::surface::{Surface, Surrogates};
 
 /// A bumpy square of n × n cells.

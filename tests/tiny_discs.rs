@@ -7,7 +7,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::surface;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
 use riemap::map::{Boundary, MapError, MapOptions, Valid, run};
 use riemap::surface::Surface;

@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use common::*;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use riemap::surface::diagnosis::{Diagnosis, Finding};
-use riemap::surface::disc::Disc;
+use riemap::surface::topology::diagnosis::{Diagnosis, Finding};
+use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::topology::Topology;
 use riemap::surface::{Faces, Surface};
 

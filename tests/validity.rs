@@ -10,7 +10,7 @@ use common::{disc, surface, triangulated};
 use num_complex::Complex64;
 use riemap::distortion::Validity;
 use riemap::surface::Surface;
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 
 /// A fan of `n` triangles around vertex 0, each of 1/n of `turns` turns in the plane; closed where `closed`.
 fn fan(n: u32, turns: f64, closed: bool) -> (Surface, Vec<Complex64>) {

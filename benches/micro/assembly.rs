@@ -2,9 +2,9 @@
 
 use divan::{Bencher, black_box};
 use riemap::map::{Domain, MapOptions};
-use riemap::objective::HessianAssembly;
-use riemap::problem::system;
-use riemap::surface::disc::Disc;
+use riemap::problem::nonlinear::HessianAssembly;
+use riemap::problem::linear::system;
+use riemap::surface::oriented_mesh::Disc;
 
 use crate::fixture::{Mesh, meshes, objective};
 

@@ -1,7 +1,7 @@
 //! The boundary operator S of the reduction, and the extension to the interior.
 
 use divan::{Bencher, black_box};
-use riemap::backend::reduced::Reduction;
+use riemap::solver::boundary::Reduction;
 
 use crate::fixture::{Mesh, meshes, rough};
 

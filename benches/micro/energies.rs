@@ -2,7 +2,7 @@
 
 use divan::{Bencher, black_box};
 use riemap::energy::Curvature;
-use riemap::objective::HessianAssembly;
+use riemap::problem::nonlinear::HessianAssembly;
 
 use crate::fixture::{Mesh, meshes, objective};
 

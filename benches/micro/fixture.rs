@@ -3,13 +3,13 @@
 use std::fmt;
 
 use num_complex::Complex64;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::constraint::{Fixed, Freedoms};
 use riemap::energy::conformal::{Dirichlet, Weight};
 use riemap::energy::{Rest, energy};
 use riemap::input::Input;
 use riemap::map::{Boundary, MapOptions, Mapped, run};
-use riemap::objective::Objective;
+use riemap::problem::nonlinear::Objective;
 use riemap::quad_graph::metric::RestMetric;
 
 /// A mesh by the vertices along a side.

@@ -3,8 +3,8 @@ use num_complex::Complex64;
 use super::singular::singular_values;
 use super::{FaceMap, Image};
 use crate::quad_graph::TangentPlanes;
-use crate::surface::disc::Disc;
-use crate::surface::vector::{cross, dot, norm, sub};
+use crate::surface::oriented_mesh::Disc;
+use crate::geometry::vector::{cross, dot, norm, sub};
 
 /// For every face but those put into holes the largest σ1/σ2 of the triangles that its corners make with their neighbours:
 /// of a triangle its own, of a quad the worst of four. Negative where one of them is turned over, +∞ where one collapses.

@@ -1,7 +1,7 @@
 use num_complex::Complex64;
 
 use crate::quad_graph::{Periods, QuadGraph};
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 
 /// Where a map puts the corners of faces and quads.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ mod image;
 mod singular;
 mod validity;
 
-pub use crate::predicate::orientation;
+pub use crate::geometry::predicate::orientation;
 pub use corner::corner_errors;
 pub use image::Image;
 pub use singular::{FaceMap, face_maps};
@@ -15,11 +15,11 @@ use num_complex::Complex64;
 use serde::Serialize;
 
 use crate::energy::conformal;
-use crate::polygon::boundary_crossing;
+use crate::geometry::polygon::boundary_crossing;
 use crate::quad_graph::{QuadGraph, TangentPlanes};
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::next_in;
-use crate::surface::vector::{norm, sub};
+use crate::geometry::vector::{norm, sub};
 
 /// Mean and extreme of a quantity that is 1 (a ratio) or 0 (a residual) for a perfect map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -2,10 +2,10 @@ use num_complex::Complex64;
 
 use super::Image;
 use crate::energy::conformal;
-use crate::predicate::{diagonals_cross_left, orientation};
+use crate::geometry::predicate::{diagonals_cross_left, orientation};
 use crate::quad_graph::QuadGraph;
-use crate::surface::disc::Disc;
-use crate::surface::vector::{cross, dot, norm, sub};
+use crate::surface::oriented_mesh::Disc;
+use crate::geometry::vector::{cross, dot, norm, sub};
 
 /// The affine map of one face, `z ↦ a z + b z̄` in the face's own plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

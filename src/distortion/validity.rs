@@ -1,8 +1,8 @@
 use num_complex::Complex64;
 
-use crate::polygon::boundary_crossing;
-use crate::predicate::orientation;
-use crate::surface::disc::Disc;
+use crate::geometry::polygon::boundary_crossing;
+use crate::geometry::predicate::orientation;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::{Edges, next_in};
 
 /// Whether a map is one-to-one: the exact check, on the very doubles that are given.

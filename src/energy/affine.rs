@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::conformal::Weight;
 use super::{Block, Curvature, EnergyError, Rest};
-use crate::predicate::orientation;
+use crate::geometry::predicate::orientation;
 use crate::quad_graph::RestTriangle;
 use crate::sparse::Stencils;
 

@@ -6,17 +6,13 @@
 
 mod affine;
 mod authalic;
+mod barrier;
 mod circle;
-mod clearance;
 pub mod conformal;
 mod error;
 mod expression;
-mod gaps;
 mod metric;
 mod mips;
-mod order;
-mod overlap;
-mod point_edge;
 mod polynomial;
 mod square_sum;
 mod symmetric_dirichlet;
@@ -25,15 +21,13 @@ mod unfolding;
 
 pub use affine::{Derivatives, Triangles};
 pub use authalic::Authalic;
+pub use barrier::{Clearance, Gaps, Order};
 pub use circle::Circle;
-pub use clearance::Clearance;
 pub use conformal::Conformal;
 pub use error::EnergyError;
 pub use expression::{Expression, ExpressionError, Term};
-pub use gaps::Gaps;
 pub use metric::Metric;
 pub use mips::{Mips, MipsDensity};
-pub use order::Order;
 pub use polynomial::Polynomial;
 pub use square_sum::{LocalMap, SquareSum, jacobian};
 pub use symmetric_dirichlet::{SymmetricDirichlet, SymmetricDirichletDensity};

@@ -11,7 +11,6 @@ mod matrix_market;
 mod mesh;
 mod obj;
 mod off;
-mod off_binary;
 mod ply;
 mod positions;
 mod stl;

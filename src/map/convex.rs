@@ -3,8 +3,8 @@
 use num_complex::Complex64;
 
 use super::{Boundary, Domain, Map, MapError, MapOptions, Valid};
-use crate::backend::Observer;
-use crate::backend::convex::{ConvexSolution, Towards, convex_map, edge_weights, outward};
+use crate::solver::Observer;
+use crate::solver::convex::{ConvexSolution, Towards, convex_map, edge_weights, outward};
 use crate::constraint::Fixed;
 use crate::distortion::{Validity, folded_faces};
 use crate::energy::conformal;

@@ -4,11 +4,11 @@ use crate::input::Input;
 use crate::quad_graph::metric::RestMetric;
 use crate::quad_graph::{QuadGraph, TangentPlanes, own_normal};
 use crate::surface::Surface;
-use crate::surface::diagnosis::Diagnosis;
-use crate::surface::disc::Disc;
+use crate::surface::topology::diagnosis::Diagnosis;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::Edges;
 use crate::surface::normals::{Facets, NormalError, NormalSpec};
-use crate::surface::vector::scale;
+use crate::geometry::vector::scale;
 
 /// A surface made ready to be mapped: in one piece, oriented, with a number ρ for every quad.
 #[derive(Clone, Debug)]

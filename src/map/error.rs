@@ -1,11 +1,11 @@
 use super::lengths::LengthsError;
-use crate::backend::convex::ConvexError;
-use crate::backend::reduced::Unreduced;
-use crate::backend::{MinimiseError, SolveError, Unsuitable};
+use crate::solver::convex::ConvexError;
+use crate::solver::boundary::Unreduced;
+use crate::solver::{MinimiseError, SolveError, Unsuitable};
 use crate::constraint::ConstraintError;
 use crate::energy::EnergyError;
 use crate::energy::conformal::NonPositiveRho;
-use crate::periodic::PeriodicError;
+use crate::map::periodic::PeriodicError;
 use crate::quad_graph::QuadGraphError;
 use crate::surface::cut::CutError;
 use crate::surface::normals::NormalError;

@@ -4,8 +4,8 @@
 use num_complex::Complex64;
 
 use super::{Boundary, Domain, MapError, MapOptions};
-use crate::backend::Observer;
-use crate::backend::convex::{convex_map, edge_weights};
+use crate::solver::Observer;
+use crate::solver::convex::{convex_map, edge_weights};
 use crate::constraint::{Fixed, on_circle, spread_points};
 use crate::energy::conformal::Weight;
 use crate::energy::{Energy, Expression};

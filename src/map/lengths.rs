@@ -9,7 +9,7 @@ use super::{Boundary, MapOptions};
 use crate::distortion::MeanMax;
 use crate::io::{BoundaryLengths, LengthUnit, PerEdge};
 use crate::quad_graph::QuadGraph;
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 
 /// Why boundary edges cannot have the lengths that are asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

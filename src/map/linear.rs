@@ -1,8 +1,8 @@
 use super::{Map, MapError, MapOptions};
-use crate::backend::{Observer, solve_linear};
+use crate::solver::{Observer, solve_linear};
 use crate::constraint::Fixed;
 use crate::energy::conformal;
-use crate::problem::LinearProblem;
+use crate::problem::linear::LinearProblem;
 use crate::quad_graph::QuadGraph;
 
 impl MapOptions {

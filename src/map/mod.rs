@@ -1,5 +1,6 @@
 //! One surface to one map: the pipeline from a disc to its image in the plane.
 
+mod bijective;
 mod convex;
 mod domain;
 mod error;
@@ -8,10 +9,10 @@ mod lengths;
 mod linear;
 mod nonlinear;
 mod options;
+pub mod periodic;
 mod reduced;
 mod texture;
 mod torus;
-mod valid;
 
 pub use domain::Domain;
 pub use error::MapError;
@@ -21,15 +22,15 @@ pub use texture::TextureCoordinates;
 
 use num_complex::Complex64;
 
-use crate::backend::{Observer, Phase};
+use crate::solver::{Observer, Phase};
 use crate::constraint::{Fixed, Shape};
 use crate::distortion::{Distortion, Image, Validity, mesh_boundary};
 use crate::input::Input;
-use crate::periodic::PeriodicMap;
-use crate::polygon::out_of_order;
+use crate::map::periodic::PeriodicMap;
+use crate::geometry::polygon::out_of_order;
 use crate::surface::cut::CutRecord;
-use crate::surface::diagnosis::{Diagnosis, Finding, Severity};
-use crate::surface::disc::Disc;
+use crate::surface::topology::diagnosis::{Diagnosis, Finding, Severity};
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::topology::Component;
 
 /// How a map was found.
@@ -38,7 +39,7 @@ pub enum Outcome {
     /// By a direct solver.
     Solved,
     /// By iteration; see there.
-    Minimised(crate::backend::Status),
+    Minimised(crate::solver::Status),
 }
 
 impl Outcome {
@@ -231,7 +232,7 @@ impl MapOptions {
             (false, _) => {
                 let plain = nonlinear::minimise(self, &expression, domain, exact, watch);
                 match self.promises_valid() {
-                    true => valid::kept_or_replaced(self, domain, exact, plain, watch),
+                    true => bijective::kept_or_replaced(self, domain, exact, plain, watch),
                     false => plain,
                 }
             }

@@ -8,17 +8,17 @@ use num_complex::Complex64;
 use super::flip_free::{self, hold_unseen, is_flip_free};
 use super::options::hold_pins;
 use super::reduced::{self, Attempt};
-use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, valid};
-use crate::backend::nonlinear::smallest_singular_value;
-use crate::backend::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
+use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, bijective};
+use crate::solver::minimise::smallest_singular_value;
+use crate::solver::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
 use crate::constraint::{Fixed, Freedoms, float_white_back, hold_gauge, on_circle, spread_points, turn_back};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Expression, Order, Rest, energy};
-use crate::objective::{Objective, Terms};
-use crate::problem::LinearProblem;
+use crate::problem::nonlinear::{Objective, Terms};
+use crate::problem::linear::LinearProblem;
 use crate::quad_graph::QuadGraph;
 use crate::quad_graph::metric::RestMetric;
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 
 /// A minimisation that ends at rounding counts as converged when it has brought the gradient down to this.
 const ACCEPTED_REDUCTION: f64 = 1e-5;
@@ -51,7 +51,7 @@ pub(super) fn minimise(
         Attempt::Done(map) => return Ok(*map),
         Attempt::Elsewhere { after, start, disordered } => {
             if let Some(plain) = disordered
-                && let Some(map) = valid::unfolded(options, domain, &plain, watch)?.0
+                && let Some(map) = bijective::unfolded(options, domain, &plain, watch)?.0
             {
                 return Ok(map);
             }
@@ -94,7 +94,7 @@ pub(super) fn minimise(
     };
     // Where the reduction has failed and another map takes the place of one that folds, it is not worth while to wait for that.
     let (minimum, iterations) = match after.is_some() && options.promises_valid() {
-        true => valid::unless_hopeless(domain, &objective, rule, watch, run)?,
+        true => bijective::unless_hopeless(domain, &objective, rule, watch, run)?,
         false => run(rule, watch)?,
     };
     accept(backend, &minimum, options)?;
@@ -139,7 +139,7 @@ fn choose(name: &str) -> Result<&'static dyn Minimiser, MapError> {
     }
     minimiser(name).ok_or_else(|| MapError::NotAMinimiser {
         name: name.to_owned(),
-        known: [crate::backend::reduced::NAME]
+        known: [crate::solver::boundary::NAME]
             .into_iter()
             .chain(MINIMISERS.iter().map(|m| m.name()))
             .collect::<Vec<_>>()
@@ -258,7 +258,7 @@ fn initial(
         on_circle(graph, radius, &points)?
     };
     let problem = LinearProblem::new(graph, options.weight, &fixed)?;
-    Ok(solve_linear(&problem, "auto", &mut crate::backend::Silent)?.z)
+    Ok(solve_linear(&problem, "auto", &mut crate::solver::Silent)?.z)
 }
 
 /// What is held while the energy is minimised (design: the table of §3).

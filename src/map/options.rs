@@ -2,7 +2,7 @@ use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use super::MapError;
-use crate::backend::StopRule;
+use crate::solver::StopRule;
 use crate::constraint::{Fixed, Shape, on_shape};
 use crate::energy::Expression;
 use crate::energy::conformal::Weight;
@@ -11,8 +11,8 @@ use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS, DualPoint, dual_point};
 use crate::quad_graph::{QuadGraph, RestSource};
 use crate::surface::Surrogates;
 use crate::surface::cut::Opening;
-use crate::surface::diagnosis::Diagnosis;
-use crate::surface::disc::Disc;
+use crate::surface::topology::diagnosis::Diagnosis;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::normals::NormalSpec;
 
 /// A vertex of the source held at a place.

@@ -6,14 +6,14 @@ use std::f64::consts::TAU;
 use super::nonlinear::Anchors;
 use super::options::{Start, hold_pins};
 use super::{Boundary, Domain, Exactly, Map, MapError, MapOptions, Outcome};
-use crate::backend::reduced::{self, CircleProblem, FreeProblem, Reduction, Unreduced, circle_map, free_map};
-use crate::backend::{Observer, Phase, StopRule};
+use crate::solver::boundary::{self, CircleProblem, FreeProblem, Reduction, Unreduced, circle_map, free_map};
+use crate::solver::{Observer, Phase, StopRule};
 use crate::constraint::{Fixed, hold_gauge};
 use crate::energy::Expression;
 use crate::energy::conformal::{self, Weight};
-use crate::polygon::out_of_order;
+use crate::geometry::polygon::out_of_order;
 use crate::quad_graph::{QuadGraph, curvature};
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 
 /// Boundary lengths of free maps are kept to ten times the tolerance, and never worse than this.
 const COARSEST_LENGTHS: f64 = 1e-6;
@@ -55,7 +55,7 @@ pub(super) fn attempt(
     watch: &mut dyn Observer,
 ) -> Result<Attempt, MapError> {
     let Domain { disc, graph, planes, prescribed } = domain;
-    let by_name = options.solver == reduced::NAME;
+    let by_name = options.solver == boundary::NAME;
     if !by_name && options.solver != "auto" {
         return Ok(Attempt::Elsewhere { after: None, start: None, disordered: None });
     }
@@ -111,7 +111,7 @@ pub(super) fn attempt(
                 on_circle: true,
                 anchored: anchors.exact,
                 exactly: Some(Exactly::Circle),
-                ..Map::solved(reduced::NAME, z, fixed, None)
+                ..Map::solved(boundary::NAME, z, fixed, None)
             });
             Ok(match goes_on {
                 true => Attempt::Elsewhere { after: Some(AFTER_DISORDER), start: None, disordered: Some(map) },
@@ -150,7 +150,7 @@ pub(super) fn attempt(
                 iterations: found.iterations,
                 residual: Some(found.residual),
                 exactly: Some(Exactly::Lengths),
-                ..Map::solved(reduced::NAME, z, fixed, None)
+                ..Map::solved(boundary::NAME, z, fixed, None)
             })))
         }
     }
@@ -245,7 +245,7 @@ impl Kind {
         let is =
             |names: &[&str]| expression.rows().count() == names.len() && names.iter().all(|name| expression.has(name));
         // Other coefficients ask for a compromise between the terms, which this is not.
-        let by_name = options.solver == reduced::NAME;
+        let by_name = options.solver == boundary::NAME;
         let even = expression.terms.iter().all(|term| term.coefficient == 1.0);
         match () {
             () if !even && !by_name => Err("the coefficients are not 1"),

@@ -1,8 +1,8 @@
 use super::Mapped;
 use crate::io::Uv;
-use crate::periodic::Tiling;
+use crate::map::periodic::Tiling;
 use crate::surface::Surface;
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 
 /// A map as texture coordinates of the surface that it was made from.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::QuadGraph;
-use crate::surface::disc::Disc;
-use crate::surface::vector::{cross, dot, norm, scale, sub};
+use crate::surface::oriented_mesh::Disc;
+use crate::geometry::vector::{cross, dot, norm, scale, sub};
 
 /// What the angles of the faces around each vertex of the graph (`nv`) lack of 2π, on the boundary of π; 0 at dual vertices.
 /// The sum is 2π (Gauss and Bonnet).

@@ -1,8 +1,8 @@
 use super::rho::{extrinsic, with_normal};
 use super::{QuadGraph, QuadGraphError, TangentPlanes, difference};
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::{Edges, next_in};
-use crate::surface::vector::norm;
+use crate::geometry::vector::norm;
 
 impl QuadGraph {
     /// The quads of a quad mesh as they are, ρ extrinsic, or measured on given tangent planes.

@@ -2,9 +2,9 @@ use num_complex::Complex64;
 
 use super::dual::{BoundaryDual, DualPoint};
 use super::{QuadGraph, QuadGraphError};
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::{Edges, next_in};
-use crate::surface::vector::{add, cross, dot, norm, scale};
+use crate::geometry::vector::{add, cross, dot, norm, scale};
 
 impl QuadGraph {
     /// The quad graph of a triangle mesh: a dual vertex per face and per boundary edge; each edge vi → vj, with face f

@@ -3,9 +3,9 @@
 use super::dual::DualPoint;
 use super::triangles::{RestTriangle, rest_triangles};
 use super::{QuadGraph, QuadGraphError, RestSource, TangentPlanes, difference};
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::Edges;
-use crate::surface::vector::{cross, norm};
+use crate::geometry::vector::{cross, norm};
 
 /// Lengths and areas at rest, in the unit of the positions.
 ///

@@ -19,7 +19,7 @@ pub(crate) use triangles::triangles_of_face;
 
 use num_complex::Complex64;
 
-use crate::surface::vector;
+use crate::geometry::vector;
 
 /// A quad graph with the rest geometry that a map is compared with.
 ///

@@ -1,9 +1,9 @@
 use num_complex::Complex64;
 
 use super::QuadGraph;
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::{Edges, next_in};
-use crate::surface::homology::Homology;
+use crate::surface::topology::homology::Homology;
 
 /// How the corners of quads and faces lie in the universal cover of a torus: a map with the periods ω1, ω2 has the vertex v
 /// at `z_v + m ω1 + n ω2` where its offset is `[m, n]`.

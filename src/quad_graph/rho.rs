@@ -1,6 +1,6 @@
 //! ρ from geometry, equation (1): everything that a conformal map sees of a quad.
 
-use crate::surface::vector::{cross, dot, norm};
+use crate::geometry::vector::{cross, dot, norm};
 use num_complex::Complex64;
 
 /// The diagonals of a quad as a conformal map sees them.

@@ -1,8 +1,8 @@
 //! Tangent planes that are given beside the positions: estimated normals of digital surfaces, normals of files.
 
 use super::difference;
-use crate::surface::disc::Disc;
-use crate::surface::vector::{add, cross, dot, norm, scale, sub};
+use crate::surface::oriented_mesh::Disc;
+use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 
 /// What the rest lengths and areas of a quad mesh with given normals are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

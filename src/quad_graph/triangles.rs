@@ -4,8 +4,8 @@ use num_complex::Complex64;
 
 use super::TangentPlanes;
 use crate::surface::Surrogates;
-use crate::surface::disc::Disc;
-use crate::surface::vector::{cross, dot, norm};
+use crate::surface::oriented_mesh::Disc;
+use crate::geometry::vector::{cross, dot, norm};
 
 /// A triangle at rest: a face, or the triangle that a corner of a quad makes with its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,6 +2,7 @@
 
 mod cholesky;
 mod dissection;
+pub mod interop;
 mod panel;
 mod pattern;
 mod pruned;

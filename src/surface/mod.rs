@@ -1,23 +1,17 @@
 //! What is mapped: positions and polygons, and all that is known of them before a formula is applied.
 
 pub mod cut;
-mod defect;
-pub mod diagnosis;
 pub mod digital;
-pub mod disc;
 pub mod edges;
 mod faces;
 pub mod generate;
-mod holes;
-pub mod homology;
 pub mod normals;
 pub mod orientation;
+pub mod oriented_mesh;
 pub mod parameters;
 mod surrogate;
 pub mod topology;
-pub mod tree_cotree;
 mod union_find;
-pub(crate) mod vector;
 
 pub use faces::Faces;
 pub use surrogate::Surrogates;

@@ -1,9 +1,9 @@
 //! Shapes at rest for faces that have none.
 
 use super::Faces;
-use super::defect::{ZERO_AREA, has_no_area};
-use super::disc::Disc;
-use super::vector::{cross, dot, norm, scale, sub};
+use crate::surface::topology::{ZERO_AREA, has_no_area};
+use crate::surface::oriented_mesh::Disc;
+use crate::geometry::vector::{cross, dot, norm, scale, sub};
 
 /// The faces of a disc that have no area that doubles can tell from zero, and the shapes that they are given at rest.
 ///

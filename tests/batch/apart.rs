@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use riemap::experiment::{Outcome, Record, Settings};
+use riemap::app::experiment::{Outcome, Record, Settings};
 
 use super::shared::{folder, load_with, names};
 

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use riemap::experiment::{Config, Outcome, Record, Settings};
+use riemap::app::experiment::{Config, Outcome, Record, Settings};
 
 use super::shared::*;
 

@@ -1,7 +1,7 @@
 use std::fs;
 use std::path::Path;
 
-use riemap::experiment::{Config, DataFile, Origin, Outcome, Settings, data_folders};
+use riemap::app::experiment::{Config, DataFile, Origin, Outcome, Settings, data_folders};
 
 use super::shared::*;
 

@@ -1,6 +1,6 @@
 use std::fs;
 
-use riemap::experiment::Settings;
+use riemap::app::experiment::Settings;
 
 use super::shared::*;
 

@@ -3,7 +3,7 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
-use riemap::experiment::{Journal, Outcome, RunError, Settings};
+use riemap::app::experiment::{Journal, Outcome, RunError, Settings};
 
 use super::shared::*;
 
@@ -71,9 +71,9 @@ fn what_fails_because_of_the_interruption_leaves_no_record() {
     }));
     let results = folder();
     let (threads, journal) = (std::num::NonZeroUsize::MIN, None);
-    let shard = riemap::experiment::Shard::ALL;
+    let shard = riemap::app::experiment::Shard::ALL;
     let batch =
-        riemap::experiment::Batch { configs: &configs, shard, results: results.path(), threads, apart: None, journal };
+        riemap::app::experiment::Batch { configs: &configs, shard, results: results.path(), threads, apart: None, journal };
     batch.run(&|| STOPPED.load(Ordering::SeqCst), &mut |_| {}).unwrap();
     let files: Vec<PathBuf> = fs::read_dir(results.path().join("study")).unwrap().map(|e| e.unwrap().path()).collect();
     assert_eq!(files, [results.path().join("study/mesh=quad,n=4.json")]);

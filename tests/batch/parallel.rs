@@ -1,4 +1,4 @@
-use riemap::experiment::Outcome;
+use riemap::app::experiment::Outcome;
 
 use super::shared::*;
 

@@ -1,6 +1,6 @@
 use std::thread;
 
-use riemap::experiment::{Journal, Shard};
+use riemap::app::experiment::{Journal, Shard};
 
 use super::shared::*;
 

@@ -3,7 +3,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use riemap::experiment::{Batch, Config, Event, Journal, Record, RunError, Settings, Shard, Task, Yield};
+use riemap::app::experiment::{Batch, Config, Event, Journal, Record, RunError, Settings, Shard, Task, Yield};
 use tempfile::TempDir;
 
 /// Eight runs.

@@ -1,6 +1,6 @@
 use std::fs;
 
-use riemap::experiment::remove_stale;
+use riemap::app::experiment::remove_stale;
 
 use super::shared::*;
 

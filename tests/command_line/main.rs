@@ -17,9 +17,9 @@ mod system;
 use std::io::Read;
 use std::process::Stdio;
 
-use riemap::backend::convex::EDGE_WEIGHTS;
-use riemap::backend::{LINEAR_BACKENDS, MINIMISERS};
-use riemap::bench::{CASES, CONTESTANTS};
+use riemap::solver::convex::EDGE_WEIGHTS;
+use riemap::solver::{LINEAR_BACKENDS, MINIMISERS};
+use riemap::app::bench::{CASES, CONTESTANTS};
 use riemap::constraint::Shape;
 use riemap::energy::ENERGIES;
 use riemap::quad_graph::dual::DUAL_POINTS;

@@ -1,6 +1,6 @@
 //! Circle and free maps: `--boundary`, `--energy`, `--fix`, `--keep-order`, `--tolerance`, `--max-iterations`, `--trace`.
 
-use riemap::backend::MINIMISERS;
+use riemap::solver::MINIMISERS;
 use serde_json::Value;
 
 use super::shell::{Shell, distance, hill, texture};

@@ -1,6 +1,6 @@
 //! `--solver`: every backend by its name.
 
-use riemap::backend::LINEAR_BACKENDS;
+use riemap::solver::LINEAR_BACKENDS;
 
 use super::shell::{FIXED, Shell, distance, hill};
 

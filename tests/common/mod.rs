@@ -4,13 +4,13 @@
 use std::path::PathBuf;
 
 use num_complex::Complex64;
-use riemap::backend::{Iteration, Observer, Phase};
+use riemap::solver::{Iteration, Observer, Phase};
 use riemap::constraint::Fixed;
-use riemap::experiment::data_folders;
+use riemap::app::experiment::data_folders;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint, dual_point};
-use riemap::surface::diagnosis::Diagnosis;
-use riemap::surface::disc::Disc;
+use riemap::surface::topology::diagnosis::Diagnosis;
+use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::generate::generate;
 use riemap::surface::{Faces, Surface};
 

@@ -7,7 +7,7 @@ use crate::shared::*;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 use riemap::energy::{Clearance, Curvature, Energy};
-use riemap::polygon::boundary_crossing;
+use riemap::geometry::polygon::boundary_crossing;
 use riemap::quad_graph::QuadGraph;
 
 const ALONG: u32 = 24;

@@ -6,7 +6,7 @@ use riemap::constraint::{Fixed, Freedoms};
 use riemap::energy::conformal::{self, Dirichlet, Weight};
 use riemap::energy::energy;
 use riemap::energy::{Conformal, Curvature, Energy, SquareSum, jacobian};
-use riemap::objective::{HessianAssembly, Objective};
+use riemap::problem::nonlinear::{HessianAssembly, Objective};
 
 #[test]
 fn gradients_and_exact_hessians_are_the_derivatives_of_values() {

@@ -1,8 +1,8 @@
 use crate::common::*;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
-use riemap::backend::Silent;
-use riemap::backend::convex::{convex_map, edge_weights};
+use riemap::solver::Silent;
+use riemap::solver::convex::{convex_map, edge_weights};
 use riemap::constraint::on_circle;
 use riemap::energy::conformal::Weight;
 use riemap::energy::{Authalic, Circle, Conformal, Curvature, Energy, Gaps, Metric, Order, Rest, SquareSum};
@@ -10,7 +10,7 @@ use riemap::energy::{ENERGIES, Row};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
 use riemap::quad_graph::metric::RestMetric;
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 
 pub const WEIGHTS: [Weight; 2] = [Weight::Unit, Weight::Integral];
 

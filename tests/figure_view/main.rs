@@ -7,8 +7,8 @@ mod pattern;
 mod refusals;
 mod shared;
 
-use riemap::backend::Silent;
-use riemap::experiment::{Checkerboard, checkerboard, checkerboard_pair};
+use riemap::solver::Silent;
+use riemap::app::experiment::{Checkerboard, checkerboard, checkerboard_pair};
 use riemap::figure::{ALARM, Camera, Colour, FlatMap, Pair, Shading, SurfaceView};
 use riemap::input::Input;
 use riemap::map::{self, MapOptions};

@@ -8,8 +8,8 @@ use std::fs;
 use std::path::Path;
 
 use file::File;
-use riemap::backend::Silent;
-use riemap::experiment::{Checkerboard, stage_model};
+use riemap::solver::Silent;
+use riemap::app::experiment::{Checkerboard, stage_model};
 use riemap::figure::Checker;
 use riemap::input::Input;
 use riemap::io::glb::{Affine, Glb, GlbError, Model};

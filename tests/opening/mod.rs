@@ -4,8 +4,8 @@
 use super::common::*;
 use riemap::surface::Surface;
 use riemap::surface::cut::{CutError, CutRecord, Opening};
-use riemap::surface::diagnosis::{Diagnosis, Finding};
-use riemap::surface::disc::Disc;
+use riemap::surface::topology::diagnosis::{Diagnosis, Finding};
+use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::edges::Edges;
 use riemap::surface::generate::generate;
 use riemap::surface::topology::Topology;

@@ -1,7 +1,7 @@
 use crate::shared::*;
 use num_complex::Complex64;
 use riemap::energy::conformal::Weight;
-use riemap::periodic::relative_error;
+use riemap::map::periodic::relative_error;
 use riemap::quad_graph::{QuadGraph, RestSource, TangentPlanes};
 use riemap::surface::digital::{Adjacency, Solid, boundary};
 use riemap::surface::edges::Edges;

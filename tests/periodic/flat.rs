@@ -5,7 +5,7 @@ use crate::shared::*;
 use num_complex::Complex64;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::DUAL_POINTS;
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 
 /// A grid in the plane with the periods ω1 (across) and ω2 (up), its inner points moved.
 struct Grid {
@@ -73,7 +73,7 @@ fn lattices() -> Vec<[Complex64; 2]> {
 
 /// The largest difference between the map on the corners of quads and a similarity of the places, in differences along
 /// diagonals: colours float.
-fn difference(graph: &QuadGraph, map: &riemap::periodic::PeriodicMap, places: impl Fn(usize) -> [Complex64; 4]) -> f64 {
+fn difference(graph: &QuadGraph, map: &riemap::map::periodic::PeriodicMap, places: impl Fn(usize) -> [Complex64; 4]) -> f64 {
     let diagonal = |[z0, _, z2, _]: [Complex64; 4]| z2 - z0;
     let scale = diagonal(map.quad(graph, 0)) / diagonal(places(0));
     let quads = (0..graph.quads.len()).map(|q| {
@@ -100,7 +100,7 @@ fn flat_quad_tori_are_exact() {
                     continue;
                 }
                 let found = map(&disc, &graph, weight);
-                let error = riemap::periodic::relative_error(found.tau, wanted).unwrap();
+                let error = riemap::map::periodic::relative_error(found.tau, wanted).unwrap();
                 // rounding of normal equations, whose condition is some 1e4
                 assert!(error < 1e-10, "{omega:?} {columns}×{rows} {weight:?}: {} {error:e}", found.tau);
                 assert!(difference(&graph, &found, places) < 1e-10);
@@ -136,7 +136,7 @@ fn flat_triangle_tori_are_exact_with_every_dual_point() {
                     continue;
                 }
                 let found = map(&disc, &graph, weight);
-                let error = riemap::periodic::relative_error(found.tau, omega[1] / omega[0]).unwrap();
+                let error = riemap::map::periodic::relative_error(found.tau, omega[1] / omega[0]).unwrap();
                 assert!(error < 1e-9, "{omega:?} {} {weight:?}: {} {error:e}", dual.name(), found.tau);
                 assert!(difference(&graph, &found, places) < 1e-9);
             }

@@ -2,9 +2,9 @@ use crate::common::*;
 use crate::shared::*;
 use num_complex::Complex64;
 use riemap::energy::conformal::Weight;
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::edges::Edges;
-use riemap::surface::homology::{Cycle, Homology};
+use riemap::surface::topology::homology::{Cycle, Homology};
 
 /// Sum of the map's differences along a closed walk of edges.
 fn period(disc: &Disc, cycle: &Cycle, edges: &Edges, difference: impl Fn(usize, usize) -> Complex64) -> Complex64 {

@@ -1,8 +1,8 @@
 use num_complex::Complex64;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use riemap::backend::periodic::PeriodEnergy;
-use riemap::periodic::{apply, reduce, relative_error};
+use riemap::solver::linear::periodic::PeriodEnergy;
+use riemap::map::periodic::{apply, reduce, relative_error};
 
 /// A word in the generators of SL(2, Z).
 fn matrix() -> impl Strategy<Value = [[i64; 2]; 2]> {

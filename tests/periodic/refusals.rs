@@ -1,11 +1,11 @@
 use crate::common::*;
 use crate::shared::*;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::energy::conformal::Weight;
-use riemap::periodic::{PeriodicError, periodic};
+use riemap::map::periodic::{PeriodicError, periodic};
 use riemap::quad_graph::{PeriodsError, QuadGraph};
-use riemap::surface::disc::Disc;
-use riemap::surface::homology::HomologyError;
+use riemap::surface::oriented_mesh::Disc;
+use riemap::surface::topology::homology::HomologyError;
 
 fn refused(disc: &Disc, graph: &QuadGraph, weight: Weight) -> PeriodicError {
     periodic(disc, graph, weight, &mut Silent).unwrap_err()

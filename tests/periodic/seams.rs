@@ -2,8 +2,8 @@ use crate::common::*;
 use crate::shared::*;
 use num_complex::Complex64;
 use riemap::energy::conformal::Weight;
-use riemap::periodic::{PeriodicMap, Tiling};
-use riemap::surface::disc::Disc;
+use riemap::map::periodic::{PeriodicMap, Tiling};
+use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::edges::Edges;
 use riemap::surface::{Surface, generate::generate};
 

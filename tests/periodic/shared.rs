@@ -1,12 +1,12 @@
 use crate::common::*;
 use num_complex::Complex64;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::energy::conformal::Weight;
-use riemap::periodic::{PeriodicMap, periodic};
+use riemap::map::periodic::{PeriodicMap, periodic};
 use riemap::quad_graph::QuadGraph;
 use riemap::surface::Surface;
-use riemap::surface::diagnosis::Diagnosis;
-use riemap::surface::disc::Disc;
+use riemap::surface::topology::diagnosis::Diagnosis;
+use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::generate::generate;
 
 pub const WEIGHTS: [Weight; 2] = [Weight::Integral, Weight::Unit];

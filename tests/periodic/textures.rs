@@ -1,7 +1,7 @@
 use num_complex::Complex64;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use riemap::periodic::{ACCEPTED_SHEAR, Texture, checker, reduce, whole};
+use riemap::map::periodic::{ACCEPTED_SHEAR, Texture, checker, reduce, whole};
 
 fn tau() -> impl Strategy<Value = Complex64> {
     (-0.5..0.5f64, -0.2..4.0f64).prop_map(|(re, log)| reduce(Complex64::new(re, log.exp())).unwrap().tau)

@@ -3,9 +3,9 @@ use crate::shared::*;
 use num_complex::Complex64;
 use riemap::distortion::{Distortion, Image};
 use riemap::energy::conformal::Weight;
-use riemap::periodic::{PeriodsRecord, periodic_from, relative_error};
+use riemap::map::periodic::{PeriodsRecord, periodic_from, relative_error};
 use riemap::quad_graph::QuadGraph;
-use riemap::surface::disc::Disc;
+use riemap::surface::oriented_mesh::Disc;
 
 fn error(disc: &Disc, graph: &QuadGraph, weight: Weight) -> f64 {
     relative_error(map(disc, graph, weight).tau, exact()).unwrap()
@@ -108,7 +108,7 @@ fn nothing_depends_on_numbering_or_on_the_first_basis() {
         for weight in WEIGHTS {
             let first = map(&disc, &graph, weight);
             for root in [1, 17, 100, 195] {
-                let other = periodic_from(&disc, &graph, weight, root, &mut riemap::backend::Silent).unwrap();
+                let other = periodic_from(&disc, &graph, weight, root, &mut riemap::solver::Silent).unwrap();
                 assert!((other.tau - first.tau).norm() < 1e-10, "{root}: {} {}", other.tau, first.tau);
             }
             for seed in 0..4 {

@@ -11,7 +11,7 @@ mod three_points;
 use common::*;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use riemap::backend::{Silent, Status};
+use riemap::solver::{Silent, Status};
 use riemap::input::Input;
 use riemap::map::{Boundary, MapOptions, Mapped, Outcome, Valid, run};
 use riemap::surface::Surface;

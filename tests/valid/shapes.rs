@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
 use riemap::map::{Boundary, MapOptions, Mapped, run};
 use riemap::surface::Surface;

@@ -1,6 +1,6 @@
 //! The points that the plain circle map holds, in the map that takes its place.
 
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
 use riemap::map::{MapOptions, Valid, run};
 

@@ -11,10 +11,10 @@ use std::num::NonZeroU32;
 use discs::{Shape, Topology, random_disc};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use riemap::backend::Silent;
+use riemap::solver::Silent;
 use riemap::input::Input;
 use riemap::map::{Boundary, MapError, MapOptions, Mapped, run};
-use riemap::surface::diagnosis::{Diagnosis, Finding};
+use riemap::surface::topology::diagnosis::{Diagnosis, Finding};
 use riemap::surface::{Surface, Surrogates};
 
 /// Cases of each property: more of them where `RIEMAP_CASES` says so, from another seed in each run where `RIEMAP_SEED` does.

@@ -1,6 +1,6 @@
 use super::super::FigureError;
 use super::SurfaceView;
-use crate::surface::vector::{add, cross, dot, norm, scale, sub};
+use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 
 /// Where a surface is seen from.
 #[derive(Clone, Copy, Debug, PartialEq)]

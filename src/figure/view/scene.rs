@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use super::camera::Lens;
 use super::{SurfaceView, scan::scan};
-use crate::surface::vector::{add, scale};
+use crate::geometry::vector::{add, scale};
 
 /// Pixel rows that are drawn at a time: their samples stay in the cache.
 const BAND: usize = 16;

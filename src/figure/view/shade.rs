@@ -3,7 +3,7 @@ use super::super::style;
 use super::SurfaceView;
 use super::checker::SQUARES;
 use super::scene::{EMPTY, FIRST_LINE, Scene, Triangle};
-use crate::surface::vector::{add, dot, norm, scale};
+use crate::geometry::vector::{add, dot, norm, scale};
 
 /// [`SQUARES`] of faces of large error: [`style::MARK`], and a lighter red.
 const RED: [Colour; 2] = [Colour([255, 120, 106]), style::MARK];

@@ -3,7 +3,7 @@ use std::ops::RangeInclusive;
 
 use super::{GlbError, Model};
 use crate::surface::Faces;
-use crate::surface::vector::{dot, sub};
+use crate::geometry::vector::{dot, sub};
 
 /// Sizes whose squares, and those of a millionth of them, are floats of 32 bits: viewers compute with these.
 const SIZES: RangeInclusive<f64> = 1e-15..=1e15;

@@ -1,4 +1,4 @@
-use crate::surface::disc::NotADisc;
+use crate::surface::oriented_mesh::NotADisc;
 
 /// The surface does not become a disc, or does not become closed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use crate::surface::UnionFind;
-use crate::surface::tree_cotree::{EdgeGraph, ShortestPaths, TreeCotree};
+use crate::surface::topology::tree_cotree::{EdgeGraph, ShortestPaths, TreeCotree};
 
 /// Faces times systems of loops that may be tried: about a second for each million.
 const EFFORT: usize = 3_000_000;

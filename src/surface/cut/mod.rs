@@ -2,6 +2,7 @@
 
 mod error;
 mod graph;
+mod holes;
 mod record;
 mod sheet;
 
@@ -10,11 +11,11 @@ pub use record::CutRecord;
 pub(super) use sheet::Sheet;
 
 use super::Surface;
-use super::diagnosis::{Diagnosis, Finding};
-use super::disc::{Disc, NotADisc};
+use crate::surface::topology::diagnosis::{Diagnosis, Finding};
+use crate::surface::oriented_mesh::{Disc, NotADisc};
 use super::edges::Edges;
-use super::holes::fill;
-use super::tree_cotree::EdgeGraph;
+use crate::surface::cut::holes::fill;
+use crate::surface::topology::tree_cotree::EdgeGraph;
 
 /// How a surface becomes a disc.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

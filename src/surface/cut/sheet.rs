@@ -1,9 +1,9 @@
 //! A surface under the knife: corners that know their vertices and their twins, nothing else.
 
-use crate::surface::disc::Disc;
+use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::Edges;
 use crate::surface::topology::Topology;
-use crate::surface::vector::scale;
+use crate::geometry::vector::scale;
 use crate::surface::{Faces, Surface, Surrogates, UnionFind};
 
 /// One connected piece of triangles or of quads, consistently oriented.
@@ -160,7 +160,7 @@ impl Sheet {
     /// The length of a corner's edge.
     pub fn length(&self, c: usize) -> f64 {
         let [a, b] = [c, self.next(c)].map(|c| self.positions[self.corners[c] as usize]);
-        crate::surface::vector::norm(crate::surface::vector::sub(b, a))
+        crate::geometry::vector::norm(crate::geometry::vector::sub(b, a))
     }
 
     /// χ = vertices − edges + faces.

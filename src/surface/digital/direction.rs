@@ -63,7 +63,7 @@ pub(super) fn corner(direction: u8, k: usize) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::{EDGE_ON, SIDES, corner};
-    use crate::surface::vector::{cross, dot, sub};
+    use crate::geometry::vector::{cross, dot, sub};
 
     #[test]
     fn corners_of_every_surfel_are_counter_clockwise_seen_from_outside() {

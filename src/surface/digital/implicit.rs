@@ -1,5 +1,5 @@
 use super::{Digital, DigitalError, Solid, Surfel, words_per_row};
-use crate::surface::vector::{add, dot, norm, scale, sub};
+use crate::geometry::vector::{add, dot, norm, scale, sub};
 
 /// A solid {f ≤ 0} in R³, f differentiable around its surface {f = 0} with ∇f ≠ 0 there.
 pub trait Implicit {

@@ -27,7 +27,7 @@ pub use facets::Facets;
 pub use spec::{NormalSpec, NormalSpecError};
 
 use super::parameters::{Arguments, Parameter};
-use super::vector::{dot, norm, scale, sub};
+use crate::geometry::vector::{dot, norm, scale, sub};
 
 /// A way to estimate the normals of faces.
 pub trait NormalEstimator: Sync {

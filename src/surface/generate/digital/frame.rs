@@ -1,5 +1,5 @@
 use super::{Arguments, GenerateError};
-use crate::surface::vector::{dot, sub};
+use crate::geometry::vector::{dot, sub};
 
 /// From the lattice to the shape's own coordinates and back: a rotation about (2, 1, 0)/√5, and a translation.
 pub(super) struct Frame {

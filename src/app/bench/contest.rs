@@ -1,0 +1,168 @@
+//! The contest on one mesh: every contestant a process of its own, in turns.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Duration;
+
+use serde_json::Value;
+
+use super::median::medians;
+use super::python::{lacks, last_words, one_thread};
+use super::record::{Measured, Outcome, Quality, Seconds};
+use super::target::Target;
+use super::{BenchError, Contestant, Peers, Program};
+use crate::app::measure::process::{Bounds, End, Ended, watch};
+
+/// What holds for all contests.
+pub(super) struct Rules<'a> {
+    /// This program.
+    pub riemap: &'a Path,
+    pub peers: Option<&'a Peers>,
+    /// Where contestants leave their maps.
+    pub folder: &'a Path,
+    pub limit: Duration,
+    pub repeats: usize,
+    /// Who has taken this long on a mesh does not run on it again.
+    pub patience: Duration,
+}
+
+/// A contestant, as far as it has come.
+pub(super) struct Seat {
+    pub contestant: &'static Contestant,
+    pub runs: Vec<Measured>,
+    quality: Quality,
+    end: Option<Outcome>,
+}
+
+/// What a run ended with.
+enum Run {
+    Done(Measured, Result<Quality, String>),
+    Stopped { spent: Option<f64> },
+    Failed(String),
+}
+
+impl Seat {
+    /// A contestant on a mesh on which a process will take `expected` seconds or more, as a smaller one says.
+    pub fn new(contestant: &'static Contestant, expected: Option<f64>, rules: &Rules) -> Seat {
+        let limit = rules.limit.as_secs_f64();
+        let over = expected.filter(|&seconds| seconds > limit);
+        let end = match lacks(rules.peers, contestant) {
+            Some((lacks, install)) => Some(Outcome::LeftOut { lacks, install }),
+            None => over.map(|seconds| Outcome::OverTheLimit { limit, expected: Some(seconds), spent: None }),
+        };
+        Seat { contestant, runs: Vec::new(), quality: Quality::default(), end }
+    }
+
+    /// Whether it is its turn in this round.
+    pub fn is_next(&self, round: usize, rules: &Rules) -> bool {
+        let taken: f64 = self.runs.iter().map(|run| run.whole.wall).sum();
+        self.end.is_none() && round < rules.repeats && (round == 0 || taken < rules.patience.as_secs_f64())
+    }
+
+    /// Its next run.
+    pub fn run(&mut self, target: &Target, rules: &Rules) -> Result<(), BenchError> {
+        match once(self.contestant, target, rules)? {
+            Run::Done(measured, Ok(quality)) => {
+                self.runs.push(measured);
+                self.quality = quality;
+            }
+            Run::Done(_, Err(reason)) | Run::Failed(reason) => self.end = Some(Outcome::Failed { reason }),
+            Run::Stopped { spent } => {
+                let limit = rules.limit.as_secs_f64();
+                self.end = Some(Outcome::OverTheLimit { limit, expected: None, spent });
+            }
+        }
+        Ok(())
+    }
+
+    /// What came of it.
+    pub fn outcome(&self) -> Outcome {
+        let done = || medians(&self.runs).map(|median| Outcome::Done { median, quality: self.quality });
+        let never = || Outcome::Failed { reason: "it never ran".to_owned() };
+        self.end.clone().or_else(done).unwrap_or_else(never)
+    }
+}
+
+fn once(contestant: &Contestant, target: &Target, rules: &Rules) -> Result<Run, BenchError> {
+    let of = |name: &str| rules.folder.join(name);
+    let (map, report) = (of("map"), of("report.json"));
+    let path = |path: &PathBuf| path.to_string_lossy().into_owned();
+    let mut command = match (contestant.program, rules.peers) {
+        (Program::Peer(_), Some(peers)) => peers.command(&[contestant.name, &path(&target.triangles), &path(&map)]),
+        _ => Command::new(rules.riemap),
+    };
+    if let Program::Riemap(options) = contestant.program {
+        command.arg("map").arg(&target.mesh).arg("-o").arg(of("map.obj")).arg("--report").arg(&report);
+        command.arg("--quiet").args(options);
+        one_thread(&mut command);
+    }
+    // What an earlier run has left is not of this one.
+    for file in [&map, &report] {
+        let _ = fs::remove_file(file);
+    }
+    // In a folder without anything that a program might take for its own.
+    command.current_dir(rules.folder);
+    // A terminal's Ctrl-C reaches the contestant, too.
+    let bounds = Bounds { limit: rules.limit, stop: &|| false, with_its_own: false };
+    let ended = watch(&mut command, &bounds).map_err(BenchError::io(format!("{} cannot be run", contestant.name)))?;
+    match ended.end {
+        End::OverTime | End::Stopped => return Ok(Run::Stopped { spent: ended.cpu }),
+        End::Itself(status) if !status.success() => {
+            return Ok(Run::Failed(format!("{status}: {}", last_words(&ended.stderr))));
+        }
+        End::Itself(_) => {}
+    }
+    let lost = || Run::Failed("it ended well and left no map".to_owned());
+    Ok(match contestant.program {
+        Program::Riemap(_) => match fs::read(&report) {
+            Ok(bytes) => {
+                let report: Value = serde_json::from_slice(&bytes)?;
+                match measured(&ours(&report), &ended) {
+                    Some(measured) => Run::Done(measured, Ok(quality(&report))),
+                    None => Run::Failed("its report lacks times".to_owned()),
+                }
+            }
+            Err(_) => lost(),
+        },
+        Program::Peer(_) => match measured(&serde_json::from_str(ended.stdout.trim()).unwrap_or_default(), &ended) {
+            Some(measured) => fs::read(&map).map_or_else(|_| lost(), |map| Run::Done(measured, target.quality(&map))),
+            None => Run::Failed(format!("it printed `{}`", last_words(&ended.stdout))),
+        },
+    })
+}
+
+/// Our report in the form of a peer's answer.
+fn ours(report: &Value) -> Value {
+    let solver = &report["solver"];
+    let sum =
+        |seconds: &Value, phases: &[&str]| phases.iter().map(|phase| seconds[phase].as_f64()).sum::<Option<f64>>();
+    let both = |phases: &[&str]| serde_json::json!({ "wall": sum(&solver["seconds"], phases), "cpu": sum(&solver["cpu_seconds"], phases) });
+    serde_json::json!({
+        "solve": both(&["assemble", "factor", "solve"]),
+        "factor": both(&["factor", "solve"]),
+        "peak_bytes": solver["peak_bytes"],
+    })
+}
+
+/// What a process said and what was seen of it; `None` where it did not say how long it took.
+fn measured(answer: &Value, ended: &Ended) -> Option<Measured> {
+    let seconds = |of: &Value| Some(Seconds { cpu: of["cpu"].as_f64(), wall: of["wall"].as_f64()? });
+    Some(Measured {
+        solve: seconds(&answer["solve"])?,
+        factor: seconds(&answer["factor"]),
+        whole: Seconds { cpu: ended.cpu, wall: ended.wall },
+        peak_bytes: answer["peak_bytes"].as_u64().max(ended.peak_bytes),
+    })
+}
+
+fn quality(report: &Value) -> Quality {
+    let distortion = &report["distortion"];
+    Quality {
+        quasi_conformal: distortion["quasi_conformal"]["mean"].as_f64(),
+        quasi_conformal_p99: distortion["quasi_conformal"]["p99"].as_f64(),
+        area: distortion["area"]["mean"].as_f64(),
+        // A number of our own report.
+        flipped: distortion["flipped"].as_u64().unwrap_or_default() as usize,
+    }
+}

@@ -1,0 +1,96 @@
+//! Medians of runs, and ratios of medians.
+
+use super::record::{Measured, Seconds};
+use super::{Entry, contestant};
+use crate::app::measure::median::median;
+
+/// The median of each number by itself; what a run does not tell is left out.
+pub fn medians(runs: &[Measured]) -> Option<Measured> {
+    let seconds = |of: &dyn Fn(&Measured) -> Option<Seconds>| {
+        let known: Vec<Seconds> = runs.iter().filter_map(of).collect();
+        let wall = median(known.iter().map(|s| s.wall))?;
+        Some(Seconds { cpu: median(known.iter().filter_map(|s| s.cpu)), wall })
+    };
+    let bytes = median(runs.iter().filter_map(|run| run.peak_bytes).map(|b| b as f64));
+    Some(Measured {
+        solve: seconds(&|run| Some(run.solve))?,
+        factor: seconds(&|run| run.factor),
+        whole: seconds(&|run| Some(run.whole))?,
+        peak_bytes: bytes.map(|b| b as u64),
+    })
+}
+
+/// Gives every peer of a mesh its ratio to ours of the same kind.
+pub fn compare(entries: &mut [Entry]) {
+    let cpu = |entry: &Entry| entry.median().and_then(|m| m.solve.cpu);
+    let ours: Vec<_> = entries
+        .iter()
+        .filter(|e| contestant(e.contestant).is_some_and(|c| c.is_ours()))
+        .map(|e| (e.case, e.size, e.kind, cpu(e)))
+        .collect();
+    for entry in entries {
+        if contestant(entry.contestant).is_some_and(|c| c.is_ours()) {
+            continue;
+        }
+        let own =
+            ours.iter().find(|(case, size, kind, _)| (*case, *size, *kind) == (entry.case, entry.size, entry.kind));
+        let own = own.and_then(|(_, _, _, cpu)| *cpu);
+        entry.ratio = own.zip(cpu(entry)).map(|(own, peer)| own / peer).filter(|ratio| ratio.is_finite());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::bench::record::{Outcome, Quality};
+
+    #[test]
+    fn the_median_is_the_middle_one() {
+        assert_eq!(median([]), None);
+        assert_eq!(median([3.0]), Some(3.0));
+        assert_eq!(median([9.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median([4.0, 1.0, 2.0, 9.0]), Some(3.0));
+    }
+
+    fn run(cpu: f64, peak_bytes: Option<u64>) -> Measured {
+        let solve = Seconds { cpu: Some(cpu), wall: 2.0 * cpu };
+        Measured { solve, factor: None, whole: Seconds { cpu: None, wall: 10.0 * cpu }, peak_bytes }
+    }
+
+    #[test]
+    fn medians_are_of_each_number_by_itself() {
+        let runs = [run(3.0, Some(10)), run(1.0, Some(30)), run(2.0, None)];
+        let median = medians(&runs).expect("three runs");
+        assert_eq!(median.solve, Seconds { cpu: Some(2.0), wall: 4.0 });
+        assert_eq!(median.whole, Seconds { cpu: None, wall: 20.0 });
+        assert_eq!((median.factor, median.peak_bytes), (None, Some(20)));
+        assert_eq!(medians(&[]), None);
+    }
+
+    fn entry(contestant_name: &'static str, size: usize, cpu: Option<f64>) -> Entry {
+        let kind = contestant(contestant_name).expect("in the table").kind;
+        let outcome = match cpu {
+            Some(cpu) => Outcome::Done { median: run(cpu, None), quality: Quality::default() },
+            None => Outcome::Failed { reason: "it failed".to_owned() },
+        };
+        let (case, mesh, runs, ratio) = ("grid", "grid".to_owned(), Vec::new(), None);
+        Entry { case, size, mesh, vertices: size, faces: size, contestant: contestant_name, kind, runs, outcome, ratio }
+    }
+
+    #[test]
+    fn ratios_are_ours_over_the_peer_of_the_same_kind_and_size() {
+        let mut entries = [
+            entry("riemap-circle", 100, Some(1.0)),
+            entry("riemap-circle", 1000, Some(8.0)),
+            entry("riemap-free", 1000, Some(6.0)),
+            entry("libigl-harmonic", 1000, Some(16.0)),
+            entry("libigl-lscm", 1000, Some(12.0)),
+            entry("libigl-harmonic", 100, None),
+            entry("libigl-slim", 1000, Some(2.0)),
+        ];
+        compare(&mut entries);
+        let ratios: Vec<_> = entries.iter().map(|e| e.ratio).collect();
+        // Ours have none, nor have peers that failed or stand alone.
+        assert_eq!(ratios, [None, None, None, Some(0.5), Some(0.5), None, None]);
+    }
+}

@@ -1,0 +1,167 @@
+//! All contests, one after the other.
+
+use std::env;
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use super::contest::{Rules, Seat};
+use super::exchange::exchange;
+use super::median::compare;
+use super::record::{Entry, Outcome, Record};
+use super::target::Target;
+use super::{BenchError, CASES, CONTESTANTS, Case, Peers, Source, case};
+
+/// What is compared, and how.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Which cases; empty: all.
+    pub cases: Vec<String>,
+    /// About how many vertices the meshes have.
+    pub sizes: Vec<usize>,
+    /// Whether peers take part; those that are not installed are then named.
+    pub against_peers: bool,
+    /// Runs of each contestant on each mesh.
+    pub repeats: usize,
+    /// What a process may take.
+    pub limit: Duration,
+    /// A contestant whose runs on a mesh have taken this long in all is not run on it again.
+    pub patience: Duration,
+    /// Where public files are looked for.
+    pub data: Vec<PathBuf>,
+}
+
+/// What happens.
+#[derive(Debug)]
+pub enum Event<'a> {
+    /// A mesh is ready.
+    Mesh {
+        /// Name of the case.
+        case: &'static str,
+        /// Its vertices.
+        vertices: usize,
+        /// Its faces.
+        faces: usize,
+    },
+    /// A contestant is through with it.
+    Entry(&'a Entry),
+    /// A case has no mesh.
+    PassedOver(&'a str),
+}
+
+/// Has every contestant map every mesh of the plan, each run a process of its own with one thread, in turns: after everyone's
+/// first run comes everyone's second. Peers map quads split into triangles; all maps are measured on the mesh itself, by our code.
+///
+/// # Errors
+/// Unknown cases; meshes that cannot be made; a system that does not let processes be run. A contestant that fails is an
+/// [`Outcome`].
+pub fn run(plan: &Plan, peers: Option<&Peers>, tell: &mut dyn FnMut(Event)) -> Result<Record, BenchError> {
+    let cases = chosen(&plan.cases)?;
+    let riemap = env::current_exe().map_err(BenchError::io("the running program cannot be found"))?;
+    let folder = tempfile::Builder::new().prefix("riemap-bench-").tempdir();
+    let folder = folder.map_err(BenchError::io("a temporary folder cannot be made"))?;
+    let (folder, limit) = (folder.path(), plan.limit);
+    let rules = Rules { riemap: &riemap, peers, folder, limit, repeats: plan.repeats, patience: plan.patience };
+    let mut record = Record::of_this_machine(peers, limit.as_secs_f64());
+    for case in &cases {
+        for (size, source) in meshes(case, plan, &mut record.passed_over) {
+            let target = Target::new(&source, folder)?;
+            let (vertices, faces) = (target.vertices, target.faces);
+            tell(Event::Mesh { case: case.name, vertices, faces });
+            let mut seats: Vec<Seat> = CONTESTANTS
+                .iter()
+                .filter(|contestant| contestant.is_ours() || plan.against_peers)
+                .filter(|contestant| contestant.enters(case, vertices))
+                .map(|contestant| Seat::new(contestant, expected(&record, case, contestant.name, vertices), &rules))
+                .collect();
+            for round in 0..plan.repeats {
+                for seat in seats.iter_mut().filter(|seat| seat.is_next(round, &rules)) {
+                    seat.run(&target, &rules)?;
+                }
+            }
+            let size = size.unwrap_or(vertices);
+            let first = record.entries.len();
+            for seat in seats {
+                let (outcome, contestant) = (seat.outcome(), seat.contestant);
+                record.entries.push(Entry {
+                    case: case.name,
+                    size,
+                    mesh: target.name.clone(),
+                    vertices,
+                    faces,
+                    contestant: contestant.name,
+                    kind: contestant.kind,
+                    runs: seat.runs,
+                    outcome,
+                    ratio: None,
+                });
+            }
+            compare(&mut record.entries);
+            record.entries[first..].iter().for_each(|entry| tell(Event::Entry(entry)));
+        }
+        record
+            .passed_over
+            .iter()
+            .filter(|reason| reason.starts_with(case.name))
+            .for_each(|r| tell(Event::PassedOver(r)));
+    }
+    let largest = record.entries.iter().filter(|e| e.case == CASES[0].name).max_by_key(|e| e.vertices);
+    if let Some(source) = largest.map(|entry| entry.mesh.clone()) {
+        record.exchange = exchange(&source, folder, plan.repeats)?;
+    }
+    if record.entries.is_empty() && record.passed_over.is_empty() {
+        return Err(BenchError::NoMesh { cases: plan.cases.join(", ") });
+    }
+    Ok(record)
+}
+
+/// The cases of these names; all, if there are none.
+///
+/// # Errors
+/// A name of no case.
+pub fn chosen(names: &[String]) -> Result<Vec<&'static Case>, BenchError> {
+    if names.is_empty() {
+        return Ok(CASES.iter().collect());
+    }
+    let known = || CASES.iter().map(|case| case.name).collect::<Vec<_>>().join(", ");
+    let unknown = |name: &String| BenchError::UnknownCase { name: name.clone(), known: known() };
+    names.iter().map(|name| case(name).ok_or_else(|| unknown(name))).collect()
+}
+
+/// The meshes of a case, from the smallest: the size asked for, if it has one, and the source.
+fn meshes(case: &Case, plan: &Plan, passed_over: &mut Vec<String>) -> Vec<(Option<usize>, String)> {
+    if let Source::File(name) = case.source {
+        let found = plan.data.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
+        if found.is_none() {
+            passed_over.push(format!("{}: {name} is in none of the folders of public files ($RIEMAP_DATA)", case.name));
+        }
+        return found.into_iter().map(|path| (None, path.to_string_lossy().into_owned())).collect();
+    }
+    let mut sizes = plan.sizes.clone();
+    sizes.sort_unstable();
+    sizes.dedup();
+    sizes.into_iter().filter_map(|size| Some((Some(size), case.mesh(size)?))).collect()
+}
+
+/// Seconds that a process will take at the least: those on the largest smaller mesh, times the vertices over its.
+fn expected(record: &Record, case: &Case, contestant: &str, vertices: usize) -> Option<f64> {
+    let earlier = record.entries.iter().rev().find(|e| e.case == case.name && e.contestant == contestant)?;
+    let seconds = match &earlier.outcome {
+        Outcome::Done { median, .. } => median.whole.wall,
+        Outcome::OverTheLimit { limit, expected, .. } => expected.unwrap_or(*limit),
+        Outcome::Failed { .. } | Outcome::LeftOut { .. } => return None,
+    };
+    Some(seconds * vertices as f64 / earlier.vertices as f64)
+}
+
+impl Record {
+    fn of_this_machine(peers: Option<&Peers>, limit: f64) -> Record {
+        let mut versions = peers.map(|peers| peers.versions.clone()).unwrap_or_default();
+        versions.insert("riemap".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
+        versions.extend(crate::app::experiment::revision().map(|revision| ("revision".to_owned(), revision)));
+        let processor = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+        let model = processor.lines().find(|line| line.starts_with("model name")).and_then(|l| l.split(": ").nth(1));
+        let machine = format!("{}, {}", model.unwrap_or("unknown processor"), env::consts::OS);
+        Record { entries: Vec::new(), exchange: Vec::new(), versions, machine, passed_over: Vec::new(), limit }
+    }
+}

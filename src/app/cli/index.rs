@@ -1,0 +1,52 @@
+//! The page of results that `run` and `reproduce` leave behind.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+
+use crate::app::experiment::{Config, find_experiments, records, write_page};
+
+use super::run::{Options, load};
+
+/// Writes `index.html` into `results`: `shown`, and every other experiment of the clone that has records there.
+pub fn write_index(mut shown: Vec<Config>, options: &Options, results: &Path, out: &mut dyn Write) -> Result<()> {
+    let others = match find_experiments() {
+        Some(root) => experiment_files(&root.join("experiments"))?,
+        None => Vec::new(),
+    };
+    // Settings from outside are for those that were run.
+    let options = Options { set: Vec::new(), ..options.clone() };
+    for path in others {
+        if shown.iter().any(|config| config.name == name(&path)) {
+            continue;
+        }
+        match load(std::slice::from_ref(&path), &options) {
+            Ok(loaded) => shown.extend(loaded.into_iter().filter(|config| !records(config, results).is_empty())),
+            Err(error) => writeln!(out, "! {} is not on the page: {error}", path.display())?,
+        }
+    }
+    shown.sort_by(|a, b| a.name.cmp(&b.name));
+    writeln!(out, "wrote {}", write_page(&shown, results)?.display())?;
+    Ok(())
+}
+
+/// The experiments of a folder, by name.
+pub fn experiment_files(folder: &Path) -> Result<Vec<PathBuf>> {
+    let unreadable = || format!("{} cannot be read", folder.display());
+    let mut paths = Vec::new();
+    for entry in folder.read_dir().with_context(unreadable)? {
+        paths.push(entry.with_context(unreadable)?.path());
+    }
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    if paths.is_empty() {
+        bail!("{} has no experiments: no file ends in .toml", folder.display());
+    }
+    Ok(paths)
+}
+
+/// Name of the experiment in a file.
+pub fn name(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}

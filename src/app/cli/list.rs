@@ -1,0 +1,96 @@
+use std::io::Write;
+
+use anyhow::Result;
+
+use crate::solver::convex::EDGE_WEIGHTS;
+use crate::solver::{LINEAR_BACKENDS, MINIMISERS, boundary};
+use crate::app::bench::{CASES, CONTESTANTS};
+use crate::constraint::Shape;
+use crate::energy::ENERGIES;
+use crate::quad_graph::dual::DUAL_POINTS;
+use crate::surface::generate::SURFACES;
+use crate::surface::normals::NORMAL_ESTIMATORS;
+
+pub fn run(out: &mut dyn Write) -> Result<()> {
+    section(
+        out,
+        "surfaces",
+        "meshes .obj .off .ply .stl, volumes .vol .longvol .pgm3d .npy .raw, or generated:",
+        SURFACES.iter().map(|s| (format!("{}?{}", s.name, s.synopsis()), s.about.to_owned())),
+    )?;
+    section(
+        out,
+        "estimators of normals",
+        "(--normals NAME?parameter=value; of digital surfaces and quad meshes)",
+        NORMAL_ESTIMATORS.iter().map(|n| {
+            let parameters: Vec<&str> = n.parameters().iter().map(|p| p.name).collect();
+            let parameters =
+                if parameters.is_empty() { String::new() } else { format!(" ({})", parameters.join(", ")) };
+            (n.name().to_owned(), format!("{}{parameters}", n.about()))
+        }),
+    )?;
+    section(
+        out,
+        "energies",
+        "(--energy \"H + 0.5 L\"; --weight integral|unit)",
+        ENERGIES.iter().map(|e| (e.name.to_owned(), e.about.to_owned())),
+    )?;
+    section(
+        out,
+        "constraints",
+        "(--boundary circle|free|fixed|periodic; fixed: --shape, --positions FILE, --hold whole|primal; --pin V=X,Y; --fix K)",
+        Shape::ALL.iter().map(|(name, about, _)| (name.to_string(), about.to_string())),
+    )?;
+    section(
+        out,
+        "dual points of triangle meshes",
+        "(--dual)",
+        DUAL_POINTS.iter().map(|d| (d.name().to_owned(), d.description().to_owned())),
+    )?;
+    section(
+        out,
+        "weights of convex combination maps",
+        "(--boundary fixed --weights NAME)",
+        EDGE_WEIGHTS.iter().map(|w| (w.name.to_owned(), w.about.to_owned())),
+    )?;
+    section(
+        out,
+        "direct backends",
+        "(--solver; auto takes the fastest that is exact)",
+        LINEAR_BACKENDS.iter().map(|b| (b.name().to_owned(), b.description().to_owned())),
+    )?;
+    section(
+        out,
+        "iterative backends",
+        "(--solver; auto takes reduced where it suits, else the next)",
+        std::iter::once((boundary::NAME.to_owned(), boundary::DESCRIPTION.to_owned()))
+            .chain(MINIMISERS.iter().map(|m| (m.name().to_owned(), m.description().to_owned()))),
+    )?;
+    section(
+        out,
+        "cases of bench",
+        "(riemap bench CASE…)",
+        CASES.iter().map(|c| (c.name.to_owned(), c.about.to_owned())),
+    )?;
+    section(
+        out,
+        "contestants of bench",
+        "(peers where they are installed)",
+        CONTESTANTS.iter().map(|c| (c.name.to_owned(), format!("{} map: {}", c.kind.name(), c.about))),
+    )?;
+    Ok(())
+}
+
+fn section(
+    out: &mut dyn Write,
+    title: &str,
+    how: &str,
+    rows: impl IntoIterator<Item = (String, String)>,
+) -> Result<()> {
+    writeln!(out, "{title} {how}")?;
+    for (name, about) in rows {
+        writeln!(out, "  {name:<20} {about}")?;
+    }
+    writeln!(out)?;
+    Ok(())
+}

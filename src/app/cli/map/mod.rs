@@ -1,0 +1,61 @@
+//! `riemap map`.
+
+mod arguments;
+mod output;
+mod summary;
+mod validity;
+
+use std::io::Write;
+
+use anyhow::{Context, Result, bail};
+
+use crate::solver::Status;
+use crate::map::{self, Outcome};
+use crate::map::periodic::Tiling;
+use crate::report::Report;
+use crate::app::measure::stopwatch::Stopwatch;
+
+use super::progress::Progress;
+pub use arguments::Arguments;
+use arguments::{options, without_effect};
+use output::{draw, refuse_outputs, write_all};
+use summary::{print, warn};
+
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
+    // What cannot be written is refused before anything is computed.
+    refuse_outputs(arguments)?;
+    let options = options(arguments)?;
+
+    let watch = if arguments.trace.is_some() { Stopwatch::tracing() } else { Stopwatch::start() };
+    let mut progress = Progress::new(watch, arguments.quiet);
+    let input = arguments.source.open()?;
+    let mapped = map::run(&input, &options, &mut progress);
+    progress.clear();
+    let mapped = mapped.with_context(|| input.source.clone())?;
+    let record = Report::new(&input, &mapped, progress.watch.cost());
+
+    for finding in &mapped.findings {
+        eprintln!("riemap: note: {finding}: {}", finding.advice());
+    }
+    for reason in without_effect(arguments, &options, &mapped) {
+        eprintln!("riemap: note: {reason}");
+    }
+    warn(&options, &mapped);
+    let pictures = draw(arguments, &input, &mapped, &record)?;
+    write_all(arguments, &input, &mapped, &record, &pictures, progress.watch.trace())?;
+    if !arguments.quiet {
+        print(out, &record)?;
+        if let (Some(periods), Tiling::Whole) = (&record.periods, arguments.tiling) {
+            let [[a, b], [c, d]] = periods.whole.matrix;
+            let shear = 100.0 * periods.whole.shear;
+            writeln!(out, "texture coordinates with the periods ({a}, {c}) and ({b}, {d}), sheared by {shear:.2} %")?;
+        }
+        for path in arguments.outputs() {
+            writeln!(out, "wrote {}", path.display())?;
+        }
+    }
+    if mapped.map.outcome == Outcome::Minimised(Status::Interrupted) {
+        bail!("interrupted; the best map so far was written");
+    }
+    Ok(())
+}

@@ -1,0 +1,208 @@
+use std::io::Write;
+
+use anyhow::Result;
+
+use crate::solver::Status;
+use crate::io::LengthUnit;
+use crate::map::{Boundary, MapOptions, Mapped, Outcome, Valid};
+use crate::report::{EnergyRecord, Report};
+
+use super::validity::faults;
+use crate::app::cli::plural;
+
+/// Says on the standard error stream where the map is not one-to-one, and what may help.
+pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
+    let Mapped { map, distortion, validity, .. } = mapped;
+    if options.fix == 2 && options.pins.is_empty() && map.on_circle && map.smallest_singular_value.is_some() {
+        eprintln!(
+            "riemap: warning: two fixed points leave a circle map (nearly) free to move: the smallest singular value is \
+             {:.1e}; --fix 3 makes it unique",
+            map.smallest_singular_value.unwrap_or_default()
+        );
+    }
+    match map.outcome {
+        Outcome::Minimised(Status::MaxIterations) => {
+            eprintln!(
+                "riemap: warning: not converged after {} iterations; the map is the best reached{}",
+                map.iterations,
+                crowding(mapped).map(|why| format!(": {why}")).unwrap_or_default()
+            );
+        }
+        Outcome::Minimised(Status::Interrupted) => {
+            eprintln!("riemap: warning: interrupted after {} iterations; the map is the best reached", map.iterations);
+        }
+        Outcome::Minimised(status) if map.repaired => {
+            let at_the_end = distortion.smallest_scale.is_some_and(|scale| scale < END_OF_DOUBLES);
+            if let Some(why) = crowding(mapped).filter(|_| at_the_end || status == Status::Precision) {
+                eprintln!("riemap: warning: rounding keeps the map from coming nearer to the conformal one: {why}");
+            }
+        }
+        _ => {}
+    }
+    if map.repaired && options.weights.is_none() {
+        let was = match map.plain_folded {
+            None => "did not converge".to_owned(),
+            Some(0) => "had a boundary that crosses itself".to_owned(),
+            Some(n) => format!("had {}", plural(n, "folded face", "folded faces")),
+        };
+        eprintln!(
+            "riemap: note: the plain map {was}, and a valid one is in its place (--valid off keeps the plain one)"
+        );
+    }
+    if let Some(shear) = map.plain_shear {
+        eprintln!(
+            "riemap: note: the plain map had σ₁/σ₂ {shear:.3} in the mean, and one of less shear is in its place (--valid off keeps the \
+             plain one)"
+        );
+    }
+    if map.repaired && map.on_circle && options.weights.is_none() && map.fixed.len() < options.fix {
+        eprintln!(
+            "riemap: note: one boundary point is where it was to be, and not {}: a map with these in their places has parts that \
+             are too small for double precision",
+            options.fix
+        );
+    }
+    let mut help: Vec<&str> = Vec::new();
+    help.extend(mapped.domain.is_of_triangles().then_some("another --dual"));
+    help.extend(mapped.domain.planes.is_some().then_some("other --normals"));
+    match map.outcome {
+        Outcome::Solved if mapped.torus.is_some() => {}
+        Outcome::Solved => help.push("another --shape"),
+        Outcome::Minimised(_) if map.on_circle => {
+            help.extend((!options.keep_order).then_some("--keep-order"));
+            help.push("--boundary free");
+        }
+        Outcome::Minimised(_) => {
+            let may_overlap = options.boundary == Boundary::Free && options.promises_valid();
+            help.extend((may_overlap && options.valid != Valid::OneToOne).then_some("--valid one-to-one"));
+            help.push("--boundary circle");
+        }
+    }
+    let help = match help.is_empty() {
+        true => "a finer mesh may help".to_owned(),
+        false => format!("{} may help", help.join(", or ")),
+    };
+    for fault in faults(validity, distortion) {
+        eprintln!("riemap: warning: {fault}; {help}");
+    }
+    if let Some(count) = distortion.boundary_out_of_order.filter(|&count| count > 0) {
+        let points = plural(count, "boundary point is", "boundary points are");
+        eprintln!("riemap: warning: {points} out of order along the circle; {help}");
+    }
+}
+
+/// Scales that differ by more than this keep a minimisation from its end, or make it long.
+const CROWDED: f64 = 1e-6;
+
+/// With parts of this scale beside the largest places are not told apart any more, but near 0; a minimisation seems to end there.
+const END_OF_DOUBLES: f64 = 1e-13;
+
+/// Where parts of a map are much smaller than others, how much, and what to do.
+fn crowding(mapped: &Mapped) -> Option<String> {
+    let smallest = mapped.distortion.smallest_scale.filter(|&scale| scale < CROWDED)?;
+    let help = match mapped.map.on_circle {
+        true => "--boundary free crowds them less",
+        false => "a longer boundary, by a cut through what is crowded, does not",
+    };
+    Some(format!(
+        "the scale of its smallest parts is {smallest:.1e} of that of its largest, and doubles end near 1e-16; {help}"
+    ))
+}
+
+/// The summary of a run.
+pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
+    let Report { input, quad_graph, solver, distortion, .. } = record;
+    let (vertices, faces) = (plural(input.vertices, "vertex", "vertices"), plural(input.faces, "face", "faces"));
+    let what = if input.kind == "digital" { "surface" } else { "mesh" };
+    writeln!(out, "{}: {} {what}, {vertices}, {faces}", input.path, input.kind)?;
+    let negative = match quad_graph.negative_rho {
+        0 => String::new(),
+        n => format!(", {n} not positive"),
+    };
+    if let Some(cut) = &record.cut {
+        writeln!(out, "{cut}")?;
+    }
+    let tilted = match quad_graph.clamped {
+        0 => String::new(),
+        n => format!("; {} tilted for it", plural(n, "normal", "normals")),
+    };
+    writeln!(
+        out,
+        "quad graph: {} vertices, {}, {} vertices on the boundary, Re ρ from {:.3e}{negative}{tilted}",
+        quad_graph.vertices,
+        plural(quad_graph.quads, "quad", "quads"),
+        quad_graph.boundary_vertices,
+        quad_graph.min_re_rho
+    )?;
+    let seconds = &solver.seconds;
+    let how = match (solver.residual, solver.gradient_norm) {
+        (Some(residual), _) if solver.exactly.is_some() => format!(
+            "{} after {}, lengths to {residual:.1e}",
+            solver.status,
+            plural(solver.iterations, "iteration", "iterations")
+        ),
+        (Some(residual), _) => format!("to a relative residual of {residual:.1e}"),
+        (None, gradient) => format!(
+            "{} after {}, |gradient| {:.1e}",
+            if solver.status == "precision" { "converged to rounding" } else { solver.status },
+            plural(solver.iterations, "iteration", "iterations"),
+            gradient.unwrap_or_default()
+        ),
+    };
+    writeln!(
+        out,
+        "{}: {how}; read {:.3} s, assemble {:.3} s, factor {:.3} s, solve {:.3} s",
+        solver.backend, seconds.read, seconds.assemble, seconds.factor, seconds.solve
+    )?;
+    let EnergyRecord { total, H, C, A, L, Lb, MIPS, SD } = &record.energy;
+    let terms: Vec<String> = [("H", H), ("C", C), ("A", A), ("L", L), ("L'", Lb), ("MIPS", MIPS), ("SD", SD)]
+        .into_iter()
+        .filter_map(|(name, value)| Some(format!("{name} = {:.6e}", (*value)?)))
+        .collect();
+    if let Some(total) = total {
+        writeln!(out, "energy {total:.6e}: {}", terms.join(", "))?;
+    }
+    if let Some(sigma) = solver.smallest_singular_value {
+        writeln!(out, "smallest singular value of the Jacobian: {sigma:.3e}")?;
+    }
+    if let Some(periods) = &record.periods {
+        let number = |[re, im]: [f64; 2]| format!("{re:.7} + {im:.7} i");
+        let [first, second] = periods.loops.each_ref().map(|walk| plural(walk.vertices.len(), "edge", "edges"));
+        writeln!(out, "periods 1 and τ = {}, along loops of {first} and {second}", number(periods.tau))?;
+        if let (Some(exact), Some(error)) = (periods.exact, periods.error) {
+            writeln!(out, "exact τ = {}: {:.4} % off", number(exact), 100.0 * error)?;
+        }
+    }
+    if let Some(error) = &record.error {
+        writeln!(out, "distance to the exact map: max {:.3e}, rms {:.3e}", error.max, error.rms)?;
+    }
+    if let Some(lengths) = &record.boundary_lengths {
+        let given = if lengths.given == LengthUnit::Factors { "by factors" } else { "as lengths" };
+        writeln!(
+            out,
+            "{}, given {given}, {:.6e} together: off by {:.1e} at most",
+            plural(lengths.edges, "boundary edge", "boundary edges"),
+            lengths.perimeter,
+            lengths.error.max
+        )?;
+    }
+    if let Some(error) = &distortion.quasi_conformal {
+        writeln!(
+            out,
+            "quasi-conformal error σ1/σ2: mean {:.5}, by area {:.5}, 99 % {:.5}, max {:.5}",
+            error.mean, error.area_mean, error.p99, error.max
+        )?;
+    }
+    if let Some(area) = &distortion.area {
+        let smallest = distortion.smallest_scale.unwrap_or(1.0);
+        writeln!(
+            out,
+            "area distortion: mean {:.4}, max {:.4}; the smallest scale is {smallest:.2e} of the largest",
+            area.mean, area.max
+        )?;
+    }
+    let simple = if distortion.boundary_crosses { "crosses itself" } else { "is simple" };
+    let one_to_one = if solver.valid { "; one-to-one by the exact check" } else { "" };
+    writeln!(out, "{} flipped; the boundary {simple}{one_to_one}", plural(distortion.flipped, "face", "faces"))?;
+    Ok(())
+}

@@ -1,0 +1,46 @@
+//! One run of an experiment: what `run` and `reproduce` call where each run has a process of its own.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::Result;
+use clap::Args;
+
+use crate::app::experiment::{Config, Run, make_one};
+
+use super::run::{Options, load};
+
+/// The name of the command.
+const NAME: &str = "run-one";
+
+#[derive(Args)]
+pub struct Arguments {
+    /// The experiment: a TOML file
+    #[arg(value_name = "CONFIG.toml")]
+    config: PathBuf,
+    /// The run's place among those of the config, from 0
+    #[arg(long)]
+    position: usize,
+    #[command(flatten)]
+    options: Options,
+    /// Folder of the results
+    #[arg(long, value_name = "FOLDER", default_value = "results")]
+    results: PathBuf,
+}
+
+pub fn run(arguments: &Arguments) -> Result<()> {
+    for config in load(std::slice::from_ref(&arguments.config), &arguments.options)? {
+        make_one(&arguments.results, &config, arguments.position)?;
+    }
+    Ok(())
+}
+
+/// The command line that makes one run.
+pub fn command(program: &Path, config: &Config, run: &Run, options: &Options, results: &Path) -> Command {
+    let mut command = Command::new(program);
+    command.args([NAME, &config.path, "--full", "--position", &run.position.to_string(), "--results"]).arg(results);
+    for set in &options.set {
+        command.args(["--set", set]);
+    }
+    command
+}

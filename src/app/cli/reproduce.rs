@@ -1,0 +1,54 @@
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+
+use crate::app::experiment::{find_experiments, remove_stale};
+
+use super::index::{experiment_files, name, write_index};
+use super::run::{Options, absent, load, run_all};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Names of experiments, as in experiments/NAME.toml; without any, all of them
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    #[command(flatten)]
+    options: Options,
+    /// Folder of the results [default: results beside experiments]
+    #[arg(long, value_name = "FOLDER")]
+    results: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
+    let root = find_experiments().context(
+        "there is no folder `experiments` here, nor where riemap was built: change into a clone of riemap, or use \
+         `riemap run CONFIG.toml`",
+    )?;
+    let experiments = root.join("experiments");
+    let mut paths = experiment_files(&experiments)?;
+    if !arguments.names.is_empty() {
+        let known: Vec<String> = paths.iter().map(|path| name(path)).collect();
+        if let Some(unknown) = arguments.names.iter().find(|name| !known.contains(name)) {
+            bail!("unknown experiment `{unknown}`; {} has: {}", experiments.display(), known.join(", "));
+        }
+        paths.retain(|path| arguments.names.contains(&name(path)));
+    }
+    let results = arguments.results.clone().unwrap_or_else(|| root.join("results"));
+    let configs = load(&paths, &arguments.options)?;
+    for (config, data) in absent(&configs) {
+        writeln!(out, "{} passed over: {data}", config.name)?;
+    }
+    // With other settings there may be fewer runs than the config has.
+    if arguments.options.set.is_empty() {
+        for config in &configs {
+            for record in remove_stale(config, &results)? {
+                writeln!(out, "{} removed: {} has no such run", record.display(), config.path)?;
+            }
+        }
+    }
+    let outcome = run_all(&configs, &arguments.options, &results, out);
+    let written = write_index(configs, &arguments.options, &results, out);
+    outcome.and(written)
+}

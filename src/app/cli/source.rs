@@ -1,0 +1,58 @@
+//! How the surface is named on the command line, and how a volume file is made into one.
+
+use anyhow::Result;
+use clap::Args;
+
+use crate::input::{Input, InputOptions};
+use crate::io::Sample;
+use crate::surface::digital::Adjacency;
+
+use super::by_name;
+
+#[derive(Args)]
+pub struct Source {
+    /// A mesh file (.obj .off .ply .stl), a volume file (.vol .longvol .pgm3d .npy .raw), or a generated surface such as
+    /// `graph:cos+cos?n=33`
+    #[arg(value_name = "MESH")]
+    pub mesh: String,
+    /// Volumes: voxels of larger values are inside [default: 0]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    threshold: Option<f64>,
+    /// Raw volumes: their extent in voxels
+    #[arg(long, value_name = "XxYxZ", value_parser = extent)]
+    size: Option<Extent>,
+    /// Raw volumes: what a voxel is, u8 or u16 (little-endian)
+    #[arg(long = "type", value_name = "TYPE", value_parser = by_name::<Sample>)]
+    sample: Option<Sample>,
+    /// Volumes: interior adjacency, which says what becomes of an edge where four surfels meet: 6, the two inner voxels
+    /// there are apart; 18, they are joined [default: 6]
+    #[arg(long, value_parser = by_name::<Adjacency>)]
+    adjacency: Option<Adjacency>,
+    /// Volumes: which component of the boundary, from 0, the one with most surfels [default: 0]
+    #[arg(long, value_name = "K")]
+    component: Option<usize>,
+}
+
+#[derive(Clone, Copy)]
+struct Extent([usize; 3]);
+
+impl Source {
+    /// Reads or generates it.
+    pub fn open(&self) -> Result<Input> {
+        let options = InputOptions {
+            threshold: self.threshold,
+            size: self.size.map(|Extent(size)| size),
+            sample: self.sample,
+            adjacency: self.adjacency,
+            component: self.component,
+        };
+        Ok(Input::open_with(&self.mesh, &options)?)
+    }
+}
+
+/// Parses `XxYxZ`.
+fn extent(text: &str) -> Result<Extent, String> {
+    let sides: Option<Vec<usize>> = text.split('x').map(|side| side.parse().ok().filter(|&n| n > 0)).collect();
+    let sides = sides.and_then(|sides| <[usize; 3]>::try_from(sides).ok());
+    sides.map(Extent).ok_or_else(|| "expected three whole numbers, as in 64x64x48".to_owned())
+}

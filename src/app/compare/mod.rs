@@ -1,0 +1,5 @@
+//! Comparisons with other programs: libigl, and the maps of peers.
+
+pub mod libigl;
+pub mod peer;
+pub mod verify;

@@ -1,0 +1,5 @@
+//! Measurements of processes: times, memory, medians.
+
+pub mod median;
+pub mod process;
+pub mod stopwatch;

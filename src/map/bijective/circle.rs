@@ -1,0 +1,132 @@
+//! The valid map onto the unit disc.
+
+use std::f64::consts::PI;
+
+use num_complex::Complex64;
+
+use super::{Repair, Stage, middle_of_arc};
+use crate::solver::{Observer, Status};
+use crate::constraint::{Fixed, Freedoms, on_circle, on_circle_apart};
+use crate::map::{Exactly, Map, MapError};
+use crate::geometry::moebius::Moebius;
+use crate::problem::nonlinear::Objective;
+
+impl Repair<'_> {
+    /// MIPS with the boundary sliding on the circle, from a convex combination map; then again, with the boundary points held that the
+    /// plain map holds.
+    ///
+    /// Where double precision does not suffice for the map with these points in their places, one is held, as far as to there.
+    pub(super) fn circle(&self, watch: &mut dyn Observer) -> Result<Map, MapError> {
+        let (stage, one) = self.least_shear(watch)?;
+        let (stage, fixed, anchored) = match self.at_anchors(&stage) {
+            Some((stage, fixed)) => (stage, fixed, self.anchors.exact),
+            None => (stage, one, false),
+        };
+        let has_come_to_its_end = matches!(stage.status, Status::Converged | Status::Precision);
+        let stage = match has_come_to_its_end && !stage.is_over(self.left) {
+            true => self.shear_less(stage, &fixed, watch)?,
+            false => stage,
+        };
+        Ok(Map { on_circle: true, exactly: Some(Exactly::Circle), anchored, ..self.map(stage, fixed) })
+    }
+
+    /// The image of a map of the disc by the Möbius map that takes the boundary points of the plain map to their places, and what is
+    /// held then; `None` where it is not one-to-one.
+    fn at_anchors(&self, stage: &Stage) -> Option<(Stage, Fixed)> {
+        let graph = &self.domain.graph;
+        let mut fixed = Fixed::default();
+        for &(k, angle) in &self.anchors.points {
+            fixed.hold(graph.boundary[k], Complex64::cis(angle));
+        }
+        let three = self.three_points()?.map(|(k, place)| (graph.boundary[k], place));
+        let moebius = Moebius::through(three.map(|(v, _)| stage.z[v as usize]), three.map(|(_, place)| place)).ok()?;
+        let mut z: Vec<Complex64> = stage.z[..graph.primal].iter().map(|&z| moebius.at(z)).collect();
+        for &v in graph.boundary.iter().filter(|&&v| !graph.is_dual(v)) {
+            let place = z[v as usize];
+            z[v as usize] = fixed.place(v).unwrap_or(place / place.norm());
+        }
+        if !self.domain.is_one_to_one(&z) {
+            return None;
+        }
+        let z = self.with_dual_vertices(z);
+        // Angles are rounded, and places that come from them.
+        let objective = self.shear(&fixed).ok()?;
+        let y = objective.freedoms.restrict(&z);
+        let total = Some(objective.value(&y)).filter(|total| total.is_finite())?;
+        let gradient_norm = objective.gradient(&y).iter().map(|g| g * g).sum::<f64>().sqrt();
+        let energies = objective.values(&y);
+        let moved = Stage { z, total: Some(total), energies, gradient_norm: Some(gradient_norm), ..stage.clone() };
+        Some((moved, fixed))
+    }
+
+    /// The positions and places of the points that the plain map holds; a third one by arc length beside two.
+    fn three_points(&self) -> Option<[(usize, Complex64); 3]> {
+        let (graph, points) = (&self.domain.graph, &self.anchors.points);
+        let mut three: Vec<(usize, Complex64)> = points.iter().map(|&(k, angle)| (k, Complex64::cis(angle))).collect();
+        if let [(first, _), (second, _)] = points[..] {
+            let n = graph.boundary.len();
+            let arc = on_circle(graph, 1.0, points).ok()?;
+            // In the middle of the longer way.
+            let (from, to) = if 2 * (second - first) > n { (first, second) } else { (second, first + n) };
+            let mesh = (from + 1..to).map(|k| k % n).filter(|&k| !graph.is_dual(graph.boundary[k]));
+            let middle: Vec<usize> = mesh.collect();
+            let k = *middle.get(middle.len() / 2)?;
+            three.push((k, arc.place(graph.boundary[k])?));
+        }
+        three.try_into().ok()
+    }
+
+    /// The lowest MIPS on the disc. One boundary point is held: with three, long parts of the surface converge far more slowly.
+    pub(super) fn least_shear(&self, watch: &mut dyn Observer) -> Result<(Stage, Fixed), MapError> {
+        let graph = &self.domain.graph;
+        let whole = on_circle_apart(graph)?;
+        let mut fixed = Fixed::default();
+        fixed.hold(graph.boundary[0], Complex64::ONE);
+        let objective = self.shear(&fixed)?;
+        let padded = |z: &[Complex64]| {
+            let mut z = z.to_vec();
+            z.resize(graph.vertices, Complex64::ZERO);
+            z
+        };
+        // Angles are rounded, and places that come from them.
+        let suits = |z: &[Complex64]| objective.value(&objective.freedoms.restrict(&padded(z))).is_finite();
+        let z = self.domain.convex_start(&whole, &suits, watch)?;
+        let stage = self.minimise(&objective, Stage::start(padded(&z)), watch)?;
+        Ok((self.with_dual_vertices_placed(stage), fixed))
+    }
+
+    /// The lowest MIPS near a stage, with these points held.
+    fn shear_less(&self, stage: Stage, fixed: &Fixed, watch: &mut dyn Observer) -> Result<Stage, MapError> {
+        let stage = self.minimise(&self.shear(fixed)?, stage, watch)?;
+        Ok(self.with_dual_vertices_placed(stage))
+    }
+
+    /// MIPS of the mesh's own vertices, on a disc of area π.
+    fn shear(&self, fixed: &Fixed) -> Result<Objective, MapError> {
+        let graph = &self.domain.graph;
+        // MIPS does not see dual vertices.
+        let mut held = fixed.clone();
+        (graph.primal..graph.vertices).for_each(|v| held.hold(v as u32, Complex64::ZERO));
+        let mesh: Vec<u32> = graph.boundary.iter().copied().filter(|&v| !graph.is_dual(v)).collect();
+        let freedoms = Freedoms::sliding(graph.vertices, &held, &mesh);
+        Ok(self.objective(self.mips(PI)?, freedoms))
+    }
+
+    fn with_dual_vertices_placed(&self, mut stage: Stage) -> Stage {
+        stage.z.truncate(self.domain.graph.primal);
+        stage.z = self.with_dual_vertices(stage.z);
+        stage
+    }
+
+    /// Dual vertices at the barycentres of the image's faces, those of boundary edges in the middle of their arcs.
+    fn with_dual_vertices(&self, z: Vec<Complex64>) -> Vec<Complex64> {
+        let graph = &self.domain.graph;
+        let mut z = self.domain.with_dual_vertices(z, &Fixed::default());
+        let n = graph.boundary.len();
+        for k in (0..n).filter(|&k| graph.is_dual(graph.boundary[k])) {
+            let [a, b] = [(k + n - 1) % n, (k + 1) % n].map(|k| z[graph.boundary[k] as usize]);
+            z[graph.boundary[k] as usize] = middle_of_arc(a, b);
+        }
+        z
+    }
+}

@@ -1,0 +1,255 @@
+//! argmin's executor with one stopping rule and one observer for all minimisers.
+
+use std::cell::Cell;
+
+use argmin::core::{
+    CostFunction, Error, Executor, Gradient, IterState, KV, Problem, Solver, State, TerminationReason,
+    TerminationStatus,
+};
+
+use super::{MinimiseError, Minimum, Status, StopRule};
+use crate::solver::{Iteration, Observer, Phase};
+use crate::problem::nonlinear::Objective;
+
+/// An objective as argmin sees it.
+#[derive(Clone, Copy)]
+pub(super) struct Target<'a> {
+    pub objective: &'a Objective,
+    /// Evaluations of the energy in this iteration.
+    evaluations: &'a Cell<usize>,
+}
+
+/// Which share of the way to where the energy is no longer finite a step may go.
+pub(super) const LARGEST_SHARE: f64 = 0.9;
+
+/// Evaluations after which a step is given up: at the level of rounding a line search may never end.
+const EVALUATIONS: usize = 200;
+
+/// Parameters, cost and gradient at an iteration.
+pub(super) type Iterate = IterState<Vec<f64>, Vec<f64>, (), (), (), f64>;
+
+impl CostFunction for Target<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, y: &Vec<f64>) -> Result<f64, Error> {
+        self.evaluations.set(self.evaluations.get() + 1);
+        if self.evaluations.get() > EVALUATIONS {
+            return Err(Error::msg("no step was found that lowers the energy"));
+        }
+        Ok(self.objective.value(y))
+    }
+}
+
+impl Gradient for Target<'_> {
+    type Param = Vec<f64>;
+    type Gradient = Vec<f64>;
+
+    fn gradient(&self, y: &Vec<f64>) -> Result<Vec<f64>, Error> {
+        Ok(self.objective.gradient(y))
+    }
+}
+
+/// What a minimiser is given.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// Iterations, unless the rule has its own number.
+    pub max_iterations: usize,
+    /// Steps in a row without a fall of energy or gradient after which rounding is said to be the limit.
+    pub stalled: usize,
+}
+
+impl Limits {
+    /// Of methods that take many small steps.
+    pub const FIRST_ORDER: Limits = Limits { max_iterations: 50_000, stalled: 100 };
+}
+
+/// A solver under the common stopping rule.
+struct Watched<'a, S> {
+    inner: S,
+    objective: &'a Objective,
+    evaluations: &'a Cell<usize>,
+    tolerance: f64,
+    watch: &'a mut dyn Observer,
+    /// The state of lowest energy.
+    best: Minimum,
+    previous: Vec<f64>,
+    stalled: usize,
+    stalled_limit: usize,
+}
+
+impl<'a, S: Solver<Target<'a>, Iterate>> Watched<'a, S> {
+    /// Records an iterate.
+    fn see(&mut self, state: &Iterate, number: usize) {
+        let Some(y) = state.get_param() else { return };
+        let value = state.get_cost();
+        let gradient_norm = norm(state.get_gradient().map_or(&[], Vec::as_slice));
+        let step = y.iter().zip(&self.previous).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        let terms = if self.watch.wants_terms() { self.objective.values(y) } else { Vec::new() };
+        self.watch.iteration(&Iteration { number, total: value, terms, gradient_norm, step });
+        // At the level of rounding the energy may waver while the gradient still falls.
+        let falls = value < self.best.value
+            || (value <= self.best.value * (1.0 + 1e-14) && gradient_norm < self.best.gradient_norm);
+        let clearly = value < self.best.value * (1.0 - 1e-15) || gradient_norm < 0.5 * self.best.gradient_norm;
+        self.stalled = if falls && clearly { 0 } else { self.stalled + 1 };
+        if falls {
+            self.best.y.clone_from(y);
+            (self.best.value, self.best.gradient_norm) = (value, gradient_norm);
+        }
+        self.previous.clone_from(y);
+        self.best.iterations = number;
+    }
+}
+
+impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched<'a, S> {
+    fn name(&self) -> &str {
+        self.inner.name()
+    }
+
+    fn init(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+        let (state, kv) = self.inner.init(problem, state)?;
+        self.best.value = f64::INFINITY;
+        self.see(&state, 0);
+        self.stalled = 0;
+        Ok((state, kv))
+    }
+
+    fn next_iter(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+        let number = state.get_iter() as usize + 1;
+        self.evaluations.set(0);
+        match self.inner.next_iter(problem, state) {
+            Ok((state, kv)) => {
+                self.see(&state, number);
+                Ok((state, kv))
+            }
+            // A line search that finds no descent has met rounding; the best state is kept.
+            Err(error) => {
+                let state = Iterate::new().param(self.best.y.clone()).cost(self.best.value);
+                Ok((state.terminate_with(TerminationReason::SolverExit(error.to_string())), None))
+            }
+        }
+    }
+
+    fn terminate(&mut self, state: &Iterate) -> TerminationStatus {
+        let stop = |reason, status: Status, best: &mut Minimum| {
+            best.status = status;
+            TerminationStatus::Terminated(reason)
+        };
+        if self.best.reduction() <= self.tolerance {
+            return stop(TerminationReason::SolverConverged, Status::Converged, &mut self.best);
+        }
+        if self.watch.stop_requested() {
+            return stop(TerminationReason::Interrupt, Status::Interrupted, &mut self.best);
+        }
+        if self.stalled >= self.stalled_limit {
+            return stop(TerminationReason::SolverConverged, Status::Precision, &mut self.best);
+        }
+        match self.inner.terminate(state) {
+            // By a measure of its own.
+            TerminationStatus::Terminated(reason @ TerminationReason::SolverConverged) => {
+                stop(reason, Status::Converged, &mut self.best)
+            }
+            status => status,
+        }
+    }
+}
+
+/// The state with cost and gradient at its parameters: how our own solvers begin.
+pub(super) fn evaluated(problem: &mut Problem<Target>, state: Iterate) -> Result<Iterate, Error> {
+    let y = state.get_param().cloned().unwrap_or_default();
+    let (cost, gradient) = (problem.cost(&y)?, problem.gradient(&y)?);
+    Ok(state.cost(cost).gradient(gradient))
+}
+
+/// Euclidean norm. Where parts of a map are of the size 1e-160 the squares leave the range of doubles, and the norm does not.
+pub(super) fn norm(v: &[f64]) -> f64 {
+    let squared = dot(v, v);
+    if (1e-280..=1e280).contains(&squared) || squared == 0.0 && v.iter().all(|x| *x == 0.0) {
+        return squared.sqrt();
+    }
+    let unit = v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    if !unit.is_finite() || squared.is_nan() {
+        return squared.sqrt();
+    }
+    unit * v.iter().map(|x| (x / unit).powi(2)).sum::<f64>().sqrt()
+}
+
+/// a · b
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// |∇E| at the start.
+///
+/// # Errors
+/// Energy or gradient are not finite there.
+pub(super) fn start_gradient_norm(objective: &Objective, start: &[f64]) -> Result<f64, MinimiseError> {
+    let gradient_norm = norm(&objective.gradient(start));
+    if objective.value(start).is_finite() && gradient_norm.is_finite() {
+        Ok(gradient_norm)
+    } else {
+        Err(MinimiseError::StartNotFinite)
+    }
+}
+
+/// What the gradient of a start far from the minimum might be, times 10⁻⁶: its own gradient is no measure where the start
+/// is the minimum and the gradient mere rounding. Probed at the start scaled by 1.1; 0 where the energy is not finite there.
+fn gradient_of_a_start(objective: &Objective, start: &[f64]) -> f64 {
+    let probe: Vec<f64> = start.iter().map(|y| 1.1 * y).collect();
+    let gradient_norm = norm(&objective.gradient(&probe));
+    if gradient_norm.is_finite() && objective.value(&probe).is_finite() { 1e-6 * gradient_norm } else { 0.0 }
+}
+
+/// Runs `solver` from `start` until the rule says stop.
+pub(super) fn run<S: for<'t> Solver<Target<'t>, Iterate>>(
+    backend: &'static str,
+    solver: S,
+    objective: &Objective,
+    start: Vec<f64>,
+    rule: StopRule,
+    limits: Limits,
+    watch: &mut dyn Observer,
+) -> Result<Minimum, MinimiseError> {
+    watch.phase(Phase::Solve);
+    let first_gradient_norm = start_gradient_norm(objective, &start)?;
+    let best = Minimum {
+        y: start.clone(),
+        value: f64::INFINITY,
+        gradient_norm: f64::INFINITY,
+        reference: rule.reference.unwrap_or_else(|| first_gradient_norm.max(gradient_of_a_start(objective, &start))),
+        iterations: 0,
+        status: Status::MaxIterations,
+    };
+    let previous = start.clone();
+    let evaluations = Cell::new(0);
+    let watched = Watched {
+        inner: solver,
+        objective,
+        evaluations: &evaluations,
+        tolerance: rule.tolerance,
+        watch,
+        best,
+        previous,
+        stalled: 0,
+        stalled_limit: limits.stalled,
+    };
+    let max_iterations = rule.max_iterations.unwrap_or(limits.max_iterations) as u64;
+    let result = Executor::new(Target { objective, evaluations: &evaluations }, watched)
+        .configure(|state: Iterate| state.param(start).max_iters(max_iterations))
+        .ctrlc(false)
+        .timer(false)
+        .run()
+        .map_err(|error| MinimiseError::Solver { backend, message: error.to_string() })?;
+    // A solver that ended by itself has found no better point.
+    let used_up = result.state.get_termination_reason() == Some(&TerminationReason::MaxItersReached);
+    let mut best = result.solver.best;
+    if best.status == Status::MaxIterations && !used_up {
+        best.status = Status::Precision;
+    }
+    // The gradient that argmin carries may be that of the last iterate.
+    best.gradient_norm = norm(&objective.gradient(&best.y));
+    if best.reduction() <= rule.tolerance {
+        best.status = Status::Converged;
+    }
+    Ok(best)
+}

@@ -1,0 +1,91 @@
+//! argmin's own first-order solvers: the paper's conjugate gradients and L-BFGS, as rows to compare with.
+
+use argmin::core::Error;
+use argmin::solver::conjugategradient::NonlinearConjugateGradient;
+use argmin::solver::conjugategradient::beta::{FletcherReeves as BetaFr, PolakRibierePlus as BetaPr};
+use argmin::solver::linesearch::MoreThuenteLineSearch;
+use argmin::solver::quasinewton::LBFGS;
+
+use super::executor::{Limits, run};
+use super::{MinimiseError, Minimiser, Minimum, StopRule};
+use crate::solver::Observer;
+use crate::problem::nonlinear::Objective;
+
+/// Iterations after which a direction is forgotten: without, Fletcher–Reeves jams; much sooner, conjugacy is lost.
+const RESTART: u64 = 1_000;
+
+/// A line search exact enough for conjugacy (c₂ = 0.1).
+fn line_search() -> Result<MoreThuenteLineSearch<Vec<f64>, Vec<f64>, f64>, Error> {
+    MoreThuenteLineSearch::new().with_c(1e-4, 0.1)
+}
+
+/// One of argmin's solvers.
+pub(super) struct FirstOrder {
+    name: &'static str,
+    description: &'static str,
+    method: Method,
+}
+
+enum Method {
+    FletcherReeves,
+    PolakRibiere,
+    Lbfgs,
+}
+
+/// Conjugate gradients after Fletcher and Reeves.
+pub(super) static FLETCHER_REEVES: FirstOrder = FirstOrder {
+    name: "fletcher-reeves",
+    description: "conjugate gradients after Fletcher and Reeves, Moré–Thuente line search (argmin): the paper's",
+    method: Method::FletcherReeves,
+};
+
+/// Conjugate gradients after Polak and Ribière, β ≥ 0.
+pub(super) static POLAK_RIBIERE: FirstOrder = FirstOrder {
+    name: "polak-ribiere",
+    description: "conjugate gradients after Polak and Ribière (β ≥ 0), Moré–Thuente line search (argmin)",
+    method: Method::PolakRibiere,
+};
+
+/// Limited-memory BFGS.
+pub(super) static LBFGS_ROW: FirstOrder = FirstOrder {
+    name: "lbfgs",
+    description: "L-BFGS with 20 pairs, Moré–Thuente line search (argmin)",
+    method: Method::Lbfgs,
+};
+
+impl Minimiser for FirstOrder {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn description(&self) -> &'static str {
+        self.description
+    }
+
+    fn minimise(
+        &self,
+        objective: &Objective,
+        start: Vec<f64>,
+        rule: StopRule,
+        watch: &mut dyn Observer,
+    ) -> Result<Minimum, MinimiseError> {
+        let failed = |error: Error| MinimiseError::Solver { backend: self.name, message: error.to_string() };
+        let limits = Limits::FIRST_ORDER;
+        match self.method {
+            Method::FletcherReeves => {
+                let solver = NonlinearConjugateGradient::new(line_search().map_err(failed)?, BetaFr::new());
+                run(self.name, solver.restart_iters(RESTART), objective, start, rule, limits, watch)
+            }
+            Method::PolakRibiere => {
+                let solver = NonlinearConjugateGradient::new(line_search().map_err(failed)?, BetaPr::new());
+                run(self.name, solver.restart_iters(RESTART), objective, start, rule, limits, watch)
+            }
+            Method::Lbfgs => {
+                // Its own tests are switched off: the common rule decides.
+                let solver = LBFGS::new(MoreThuenteLineSearch::new(), 20).with_tolerance_grad(0.0);
+                let solver = solver.and_then(|solver| solver.with_tolerance_cost(0.0)).map_err(failed)?;
+                run(self.name, solver, objective, start, rule, limits, watch)
+            }
+        }
+    }
+}

@@ -1,0 +1,253 @@
+use argmin::core::{Error, KV, Problem, Solver};
+
+use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
+use super::{MinimiseError, Minimiser, Minimum, StopRule};
+use crate::solver::{Observer, Phase};
+use crate::energy::Curvature;
+use crate::problem::nonlinear::{HessianAssembly, Objective};
+use crate::sparse::{Analysis, Cholesky, Columns};
+
+/// Damped Newton steps `(B + λ M) p = −g` by sparse Cholesky, the pattern analysed once.
+///
+/// M measures steps by their Dirichlet energy ([`Objective::norm`]), which lets a map move as a whole: with the diagonal
+/// of B in its place, the usual choice, the number of iterations grows with the mesh. B is the Gauss–Newton Hessian
+/// where the energy falls to 0, the exact one where its minimum is not 0. A Gauss–Newton step is bent along the valley
+/// that it follows by the second derivatives of the residuals (geodesic acceleration; Transtrum, Sethna 2012).
+pub struct LevenbergMarquardt {
+    /// Which B; `None`: begin with Gauss–Newton, change over when steps come to crawl.
+    pub curvature: Option<Curvature>,
+}
+
+impl LevenbergMarquardt {
+    /// Chooses B by itself, Gauss–Newton first.
+    pub const AUTO: LevenbergMarquardt = LevenbergMarquardt { curvature: None };
+}
+
+impl Minimiser for LevenbergMarquardt {
+    fn name(&self) -> &'static str {
+        "levenberg-marquardt"
+    }
+
+    fn description(&self) -> &'static str {
+        "damped Newton steps by sparse Cholesky, Gauss–Newton or exact Hessian, pattern analysed once"
+    }
+
+    fn default_max_iterations(&self) -> usize {
+        500
+    }
+
+    fn minimise(
+        &self,
+        objective: &Objective,
+        start: Vec<f64>,
+        rule: StopRule,
+        watch: &mut dyn Observer,
+    ) -> Result<Minimum, MinimiseError> {
+        watch.phase(Phase::Assemble);
+        let assembly = HessianAssembly::new(objective);
+        watch.phase(Phase::Factor);
+        let unknowns = start.len();
+        let analysis = assembly.analysis().map_err(MinimiseError::factorisation(self, unknowns))?;
+        watch.phase(Phase::Solve);
+        let overdetermined = objective.is_overdetermined();
+        let solver = Damped {
+            objective,
+            overdetermined,
+            diagonal_share: if overdetermined {
+                DIAGONAL_SHARE.min(DIAGONAL_SUM / unknowns as f64)
+            } else {
+                DIAGONAL_SHARE
+            },
+            norm: assembly.norm_values(&start),
+            assembly: &assembly,
+            analysis: &analysis,
+            may_change: self.curvature.is_none(),
+            curvature: self.curvature.unwrap_or(Curvature::GaussNewton),
+            crawling: 0,
+            lambda: if overdetermined { CAUTIOUS } else { BOLD },
+            shrink: if overdetermined { SHRINK } else { NIELSEN },
+            growth: 2.0,
+            factor: None,
+        };
+        let limits = Limits { max_iterations: self.default_max_iterations(), stalled: 3 };
+        run(self.name(), solver, objective, start, rule, limits, watch)
+    }
+}
+
+/// Adds `t` times a matrix's diagonal to it. A diagonal entry without size is given that of the largest.
+pub(super) fn add_damping(columns: &Columns, values: &mut [f64], t: f64) {
+    let largest = columns.diagonal(values).fold(0.0, f64::max);
+    for k in 0..columns.size() {
+        let entry = &mut values[columns.offsets[k] as usize];
+        *entry += t * if *entry > 1e-12 * largest { *entry } else { largest };
+    }
+}
+
+/// The largest damping before a step is given up as lost to rounding.
+const LARGEST_DAMPING: f64 = 1e14;
+
+/// The first λ. Where the energy can vanish bold steps save iterations; where it cannot they may lead past the nearest minimum
+/// to one many times higher.
+const BOLD: f64 = 1e-3;
+const CAUTIOUS: f64 = 0.1;
+
+/// What λ is multiplied by where the model was right: Nielsen's, and for metric energies, whose models are good from the start on,
+/// until a step fails.
+const NIELSEN: f64 = 1.0 / 3.0;
+const SHRINK: f64 = 0.1;
+
+/// The diagonal of B in M: rotations of one colour against the other have no Dirichlet energy. Where a map has to move as a
+/// whole, no more than `DIAGONAL_SUM` of one entry in all: with more, a large map tears at the vertex that is held.
+const DIAGONAL_SHARE: f64 = 1e-6;
+const DIAGONAL_SUM: f64 = 4e-3;
+
+/// What λ is multiplied by after a step at the end, where only the gradient tells progress: on to Newton's method.
+const LAST_STEPS: f64 = 0.01;
+
+/// The largest bend of a step, relative to its length, that is trusted.
+const LARGEST_BEND: f64 = 1.0;
+
+/// A step crawls when it leaves more than this of the energy.
+const CRAWL: f64 = 0.9;
+
+/// Crawling steps in a row after which the other Hessian is tried. The exact one ends a minimisation whose energy does not
+/// vanish, but in the curved valleys of one whose energy does it may crawl where Gauss–Newton steps run.
+const GAUSS_NEWTON_PATIENCE: usize = 3;
+const EXACT_PATIENCE: usize = 15;
+
+struct Damped<'a> {
+    objective: &'a Objective,
+    assembly: &'a HessianAssembly<'a>,
+    analysis: &'a Analysis<'a>,
+    norm: Vec<f64>,
+    overdetermined: bool,
+    diagonal_share: f64,
+    may_change: bool,
+    curvature: Curvature,
+    crawling: usize,
+    /// λ, in units in which M has the trace of the Gauss–Newton Hessian.
+    lambda: f64,
+    /// What λ is multiplied by at least after a success.
+    shrink: f64,
+    /// What λ is multiplied by at the next failure (Nielsen).
+    growth: f64,
+    factor: Option<Cholesky<'a, f64>>,
+}
+
+impl Damped<'_> {
+    /// M at a point with this Gauss–Newton Hessian.
+    fn damping(&self, gauss: &[f64]) -> Vec<f64> {
+        let columns = self.assembly.columns();
+        let scale = columns.diagonal(gauss).sum::<f64>() / columns.diagonal(&self.norm).sum::<f64>();
+        let mut damping: Vec<f64> = self.norm.iter().map(|m| scale * m).collect();
+        for k in 0..columns.size() {
+            let at = columns.offsets[k] as usize;
+            damping[at] += self.diagonal_share * gauss[at];
+        }
+        damping
+    }
+
+    /// The step with the present λ, bent where that is to be trusted, and the decrease that its model predicts; `None`
+    /// where B + λM is not positive definite.
+    fn step(&mut self, model: &[f64], damping: &[f64], y: &[f64], g: &[f64]) -> Option<(Vec<f64>, f64)> {
+        let columns = self.assembly.columns();
+        let damped: Vec<f64> = model.iter().zip(damping).map(|(b, m)| b + self.lambda * m).collect();
+        let factor = self.analysis.factorise(&damped, self.factor.take()).ok()?;
+        let mut p: Vec<f64> = g.iter().map(|g| -g).collect();
+        factor.solve_in_place(&mut p);
+        let size = |v: &[f64]| dot(v, &columns.multiply(damping, v));
+        // −(g·p + ½ p·B p) with (B + λM) p = −g.
+        let length = size(&p);
+        let mut predicted = 0.5 * (self.lambda * length - dot(g, &p));
+        let share = LARGEST_SHARE * self.objective.largest_step(y, &p);
+        if share < 1.0 {
+            // −(t g·p + ½ t² p·B p)
+            let along = dot(g, &p);
+            predicted = -share * along + 0.5 * share * share * (along + self.lambda * length);
+            p.iter_mut().for_each(|p| *p *= share);
+            self.factor = Some(factor);
+            return Some((p, predicted));
+        }
+        if self.curvature == Curvature::GaussNewton {
+            let mut bend: Vec<f64> = self.objective.bending(y, &p).iter().map(|b| -0.5 * b).collect();
+            factor.solve_in_place(&mut bend);
+            if 4.0 * size(&bend) <= LARGEST_BEND * LARGEST_BEND * length {
+                p.iter_mut().zip(&bend).for_each(|(p, b)| *p += b);
+            }
+        }
+        self.factor = Some(factor);
+        Some((p, predicted))
+    }
+
+    fn fail(&mut self) {
+        self.lambda *= self.growth;
+        self.growth *= 2.0;
+        self.shrink = NIELSEN;
+    }
+
+    fn succeed(&mut self, ratio: f64, left: f64) {
+        self.lambda = (self.lambda * (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(self.shrink, 2.0)).max(1e-15);
+        self.growth = 2.0;
+        self.crawling = if left > CRAWL { self.crawling + 1 } else { 0 };
+        let (patience, other) = match self.curvature {
+            Curvature::GaussNewton => (GAUSS_NEWTON_PATIENCE, Curvature::Exact),
+            Curvature::Exact => (EXACT_PATIENCE, Curvature::GaussNewton),
+        };
+        if self.may_change && self.crawling >= patience {
+            (self.curvature, self.crawling) = (other, 0);
+        }
+    }
+}
+
+impl<'a> Solver<Target<'a>, Iterate> for Damped<'_> {
+    fn name(&self) -> &str {
+        "levenberg-marquardt"
+    }
+
+    fn init(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+        Ok((evaluated(problem, state)?, None))
+    }
+
+    fn next_iter(
+        &mut self,
+        problem: &mut Problem<Target<'a>>,
+        mut state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), Error> {
+        let y = state.take_param().unwrap_or_default();
+        let g = state.take_gradient().unwrap_or_default();
+        let here = state.get_cost();
+        let gauss = self.assembly.values(&y, Curvature::GaussNewton);
+        let damping = self.damping(&gauss);
+        let model = match self.curvature {
+            Curvature::GaussNewton => gauss,
+            Curvature::Exact => self.assembly.values(&y, Curvature::Exact),
+        };
+        while self.lambda < LARGEST_DAMPING {
+            let Some((p, predicted)) = self.step(&model, &damping, &y, &g) else {
+                self.fail();
+                continue;
+            };
+            let next: Vec<f64> = y.iter().zip(&p).map(|(y, p)| y + p).collect();
+            let there = problem.cost(&next)?;
+            if predicted <= f64::EPSILON * here {
+                // The energy can no longer tell which of the two is lower; the gradient can.
+                let gradient = problem.gradient(&next)?;
+                let better = there.is_finite() && dot(&gradient, &gradient) < dot(&g, &g);
+                if better && self.overdetermined {
+                    self.lambda *= LAST_STEPS;
+                }
+                let (y, cost, g) = if better { (next, there, gradient) } else { (y, here, g) };
+                return Ok((state.param(y).cost(cost).gradient(g), None));
+            }
+            let ratio = (here - there) / predicted;
+            if there <= here && ratio > 1e-4 {
+                self.succeed(ratio, there / here);
+                let gradient = problem.gradient(&next)?;
+                return Ok((state.param(next).cost(there).gradient(gradient), None));
+            }
+            self.fail();
+        }
+        (self.lambda, self.growth) = (1.0, 2.0);
+        Ok((state.param(y).cost(here).gradient(g), None))
+    }
+}

@@ -1,0 +1,21 @@
+//! Interchangeable solvers: direct ones for linear problems, iterative ones for the others.
+
+pub mod boundary;
+pub mod convex;
+pub mod linear;
+pub mod minimise;
+mod observer;
+
+pub use linear::{
+    LINEAR_BACKENDS, LinearBackend, LinearSolution, SolveError, Unsuitable, automatic, linear_backend, solve_linear,
+    solve_with,
+};
+pub use minimise::{MINIMISERS, MinimiseError, Minimiser, Minimum, Status, StopRule, minimiser};
+pub use observer::{Iteration, Observer, Phase, Silent};
+
+/// What `--solver` takes: `auto`, and all backends by name.
+pub fn solver_names() -> Vec<&'static str> {
+    let direct = LINEAR_BACKENDS.iter().map(|b| b.name());
+    let iterative = MINIMISERS.iter().map(|m| m.name());
+    ["auto", boundary::NAME].into_iter().chain(direct).chain(iterative).collect()
+}

@@ -1,0 +1,208 @@
+//! The searches behind [`Diagnosis`](super::diagnosis::Diagnosis), one function per group of findings.
+
+use super::diagnosis::Finding;
+use crate::surface::topology::Topology;
+use crate::geometry::vector;
+use crate::surface::Surface;
+
+/// Twice a face's area over its longest extent squared, below which doubles cannot tell the area from zero: four
+/// roundings of a product of lengths.
+pub(crate) const ZERO_AREA: f64 = 4.0 * f64::EPSILON;
+
+/// Extents for which products of four lengths, from the extent down to 1e-16 of it, neither overflow nor vanish.
+const EXTENTS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+
+/// The first of some offenders and their number.
+struct Tally<T> {
+    first: Option<T>,
+    count: usize,
+}
+
+impl<T> Tally<T> {
+    fn of(offenders: impl Iterator<Item = T>) -> Self {
+        let mut tally = Tally { first: None, count: 0 };
+        for offender in offenders {
+            tally.first.get_or_insert(offender);
+            tally.count += 1;
+        }
+        tally
+    }
+
+    fn report(self, finding: impl FnOnce(T, usize) -> Finding) -> Option<Finding> {
+        self.first.map(|first| finding(first, self.count))
+    }
+}
+
+/// Numbers of corners, repeated corners, duplicate faces.
+pub(super) fn of_polygons(surface: &Surface) -> Vec<Finding> {
+    let faces = &surface.faces;
+    if faces.is_empty() {
+        return vec![Finding::NoFaces];
+    }
+    let mut findings = Vec::new();
+    let mut arities = std::collections::BTreeMap::new();
+    for polygon in faces.iter() {
+        *arities.entry(polygon.len()).or_insert(0usize) += 1;
+    }
+    let usual = if faces.get(0).len() == 4 { 4 } else { 3 };
+    if let Some(first) = faces.iter().position(|p| p.len() != usual) {
+        findings.push(Finding::Polygons { arities: arities.into_iter().collect(), first: first as u32 });
+    }
+    let repeated = faces.iter().enumerate().filter_map(|(f, polygon)| {
+        let twice = (1..polygon.len()).find(|&k| polygon[..k].contains(&polygon[k]))?;
+        Some((f as u32, polygon[twice]))
+    });
+    findings.extend(Tally::of(repeated).report(|(face, vertex), count| Finding::RepeatedVertex {
+        face,
+        vertex,
+        count,
+    }));
+    findings.extend(duplicate_faces(surface));
+    findings
+}
+
+fn duplicate_faces(surface: &Surface) -> Option<Finding> {
+    let faces = &surface.faces;
+    // Faces of the same vertex set have the same smallest vertex: bucket by it, compare within buckets only.
+    let mut by_smallest: Vec<(u32, u32)> =
+        (0..faces.len()).map(|f| (faces.get(f).iter().copied().min().unwrap_or(0), f as u32)).collect();
+    by_smallest.sort_unstable();
+    let sorted = |f: u32| {
+        let mut polygon = faces.get(f as usize).to_vec();
+        polygon.sort_unstable();
+        polygon
+    };
+    let mut pairs = Vec::new();
+    for bucket in by_smallest.chunk_by(|a, b| a.0 == b.0).filter(|bucket| bucket.len() > 1) {
+        let mut sets: Vec<(Vec<u32>, u32)> = bucket.iter().map(|&(_, f)| (sorted(f), f)).collect();
+        sets.sort_unstable();
+        pairs.extend(sets.chunk_by(|a, b| a.0 == b.0).flat_map(|same| same[1..].iter().map(|s| [same[0].1, s.1])));
+    }
+    pairs.sort_unstable_by_key(|&[_, later]| later);
+    Tally::of(pairs.into_iter()).report(|first, count| Finding::DuplicateFaces { first, count })
+}
+
+/// Coordinates that are no numbers, edges without length, faces without area.
+pub(super) fn of_geometry(surface: &Surface, topology: &Topology) -> Vec<Finding> {
+    let x = &surface.positions;
+    let not_finite = Tally::of((0..x.len()).filter(|&v| !x[v].iter().all(|t| t.is_finite())));
+    if let Some(finding) = not_finite.report(|vertex, count| Finding::NotFinite { vertex: vertex as u32, count }) {
+        return vec![finding];
+    }
+    let extent = extent(surface, topology);
+    if extent != 0.0 && !EXTENTS.contains(&extent) {
+        return vec![Finding::OutOfRange { extent }];
+    }
+    let quads_only = surface.faces.arity() == Some(4);
+    let zero_length = topology.edges.ends.iter().filter(|[a, b]| a != b && x[*a as usize] == x[*b as usize]).copied();
+    let zero_area = (0..surface.faces.len()).filter(|&f| has_no_area(&surface.positions, surface.faces.get(f)));
+    [
+        Tally::of(zero_length).report(|edge, count| Finding::ZeroLengthEdges { edge, count, fatal: !quads_only }),
+        Tally::of(zero_area).report(|face, count| Finding::ZeroAreaFaces { face: face as u32, count }),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The longest side of the box around the vertices in use.
+fn extent(surface: &Surface, topology: &Topology) -> f64 {
+    let used = || (0..surface.positions.len()).filter(|&v| topology.fans[v] > 0).map(|v| surface.positions[v]);
+    let side = |k: usize| {
+        let (low, high) = used().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x[k]), b.max(x[k])));
+        high - low
+    };
+    (0..3).map(side).fold(0.0, f64::max)
+}
+
+/// Whether the vector area ½ Σ (xᵢ − x₀) × (xᵢ₊₁ − x₀) vanishes to rounding.
+pub(crate) fn has_no_area(positions: &[[f64; 3]], polygon: &[u32]) -> bool {
+    let Some((&first, others)) = polygon.split_first() else { return true };
+    let origin = positions[first as usize];
+    let spokes = others.iter().map(|&v| vector::sub(positions[v as usize], origin));
+    let (mut twice_area, mut extent, mut previous) = ([0.0; 3], 0.0f64, [0.0; 3]);
+    for spoke in spokes {
+        twice_area = vector::add(twice_area, vector::cross(previous, spoke));
+        extent = extent.max(vector::norm(spoke));
+        previous = spoke;
+    }
+    vector::norm(twice_area) <= ZERO_AREA * extent * extent
+}
+
+/// Edges of three faces or more, vertices of several fans, one-sidedness, flips.
+pub(super) fn of_manifoldness(topology: &Topology) -> Vec<Finding> {
+    let Topology { edges, orientation, fans, .. } = topology;
+    let faces_at = |e: usize| {
+        let mut faces: Vec<u32> = edges.corners(e).iter().map(|&c| edges.face_of_corner[c as usize]).collect();
+        // A face that runs through an edge twice is no crowd; it is reported for that.
+        faces.dedup();
+        faces
+    };
+    let overfull: Vec<usize> = (0..edges.len()).filter(|&e| edges.corners(e).len() > 2).collect();
+    let mut on_overfull_edge = vec![false; fans.len()];
+    for &e in &overfull {
+        for v in edges.ends[e] {
+            on_overfull_edge[v as usize] = true;
+        }
+    }
+    let crowded: Vec<usize> = overfull.into_iter().filter(|&e| faces_at(e).len() > 2).collect();
+    let pinched = (0..fans.len()).filter(|&v| fans[v] > 1 && !on_overfull_edge[v]);
+    let flipped = (0..orientation.flip.len()).filter(|&f| orientation.flip[f]);
+    let mut findings = Vec::new();
+    findings.extend(Tally::of(crowded.into_iter()).report(|e, count| Finding::NonManifoldEdges {
+        edge: edges.ends[e],
+        faces: faces_at(e),
+        count,
+    }));
+    findings.extend(Tally::of(pinched).report(|v, count| Finding::NonManifoldVertices {
+        vertex: v as u32,
+        fans: fans[v],
+        count,
+    }));
+    findings.extend(orientation.contradiction.iter().enumerate().filter_map(|(component, edge)| {
+        Some(Finding::NonOrientable { component, edge: edges.ends[(*edge)? as usize] })
+    }));
+    findings.extend(Tally::of(flipped).report(|f, count| Finding::Reoriented { face: f as u32, count }));
+    findings
+}
+
+/// What keeps the whole surface from being one disc.
+pub(super) fn of_shape(topology: &Topology) -> Option<Finding> {
+    match topology.components.as_slice() {
+        [] => None,
+        [only] => {
+            let genus = only.genus().filter(|_| only.orientable)?;
+            match only.boundary_loops.as_slice() {
+                [] => Some(Finding::Closed { genus }),
+                // Pinched at most, which is said elsewhere.
+                [_] if genus == 0 => None,
+                loops => Some(Finding::NotADisc { boundary_loops: loops.to_vec(), genus }),
+            }
+        }
+        several => {
+            let mut faces: Vec<usize> = several.iter().map(|c| c.faces).collect();
+            faces.sort_unstable_by(|a, b| b.cmp(a));
+            Some(Finding::Components { count: several.len(), faces })
+        }
+    }
+}
+
+/// Vertices of no face, and vertices in use at the same place.
+pub(super) fn of_vertices(surface: &Surface, topology: &Topology) -> Vec<Finding> {
+    let fans = &topology.fans;
+    let unused = (0..fans.len()).filter(|&v| fans[v] == 0);
+    let key = |v: u32| surface.positions[v as usize].map(|t| (t + 0.0).to_bits());
+    let mut used: Vec<([u64; 3], u32)> =
+        (0..fans.len() as u32).filter(|&v| fans[v as usize] > 0).map(|v| (key(v), v)).collect();
+    used.sort_unstable();
+    let mut coincident: Vec<[u32; 2]> =
+        used.chunk_by(|a, b| a.0 == b.0).flat_map(|same| same[1..].iter().map(|s| [same[0].1, s.1])).collect();
+    coincident.sort_unstable_by_key(|&[_, later]| later);
+    [
+        Tally::of(unused).report(|v, count| Finding::Unreferenced { vertex: v as u32, count }),
+        Tally::of(coincident.into_iter()).report(|first, count| Finding::CoincidentVertices { first, count }),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}

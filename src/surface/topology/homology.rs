@@ -1,0 +1,277 @@
+//! Closed integer 1-forms and loops on closed surfaces of genus 1.
+
+use crate::surface::oriented_mesh::Disc;
+use crate::surface::edges::{Edges, next_in};
+use crate::surface::orientation::same_direction;
+use super::tree_cotree::{EdgeGraph, ShortestPaths, TreeCotree};
+use crate::geometry::vector;
+
+/// A basis of the first homology of a closed surface of genus 1, and the dual basis of its cohomology:
+///
+/// ```text
+/// ∮_{γ_j} α_k = δ_jk        ∫ α1 ∧ α2 = 1
+/// ```
+///
+/// Where the faces are seen counter-clockwise γ1 crosses γ2 from left to right, so that a map that preserves orientation and
+/// has the period ω_k along γ_k has `Im(ω2/ω1) > 0`.
+#[derive(Clone, Debug)]
+pub struct Homology {
+    /// `(∫α1, ∫α2)` along the directed edge of every corner: −1, 0 or 1. Opposite corners have opposite values, and the
+    /// values sum to zero around every face.
+    pub form: Vec<[i8; 2]>,
+    /// For each class of loops (up to direction) that one edge closes with the tree the shortest of them.
+    generators: Vec<Cycle>,
+}
+
+/// A closed walk along edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    /// `(∮α1, ∮α2)`: the walk is homologous to that many times γ1 and γ2.
+    pub class: [i64; 2],
+    /// The vertices in order, the first one not repeated at the end.
+    pub vertices: Vec<u32>,
+    /// The edge from each vertex to the next.
+    pub edges: Vec<u32>,
+    /// Sum of the lengths of the edges.
+    pub length: f64,
+}
+
+/// The surface has no pair of loops that this takes.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum HomologyError {
+    /// A boundary.
+    #[error(
+        "the surface has a boundary of {edges} edges, and a periodic map needs a closed surface: map it with --boundary \
+         circle or free, or fill the holes (--fill-holes)"
+    )]
+    Boundary {
+        /// Boundary edges.
+        edges: usize,
+    },
+    /// More than one component.
+    #[error("the surface has more than one connected component: split the mesh, and map one at a time")]
+    Disconnected,
+    /// A sphere.
+    #[error(
+        "the surface is closed and has genus 0, so no loop to be a period: cut it open (--cut), or remove a face \
+         (--remove-face), for a map to the disc"
+    )]
+    Sphere,
+    /// More handles than one.
+    #[error(
+        "the surface has genus {genus}, and only surfaces of genus 1 have periodic maps to the plane: cut it open to a disc \
+         (--cut)"
+    )]
+    Genus {
+        /// Its genus.
+        genus: usize,
+    },
+    /// Faces that disagree on the side of the surface.
+    #[error("face {face} and one beside it are not oriented consistently: orient them first")]
+    Orientation {
+        /// The first face that runs through an edge in the direction of its neighbour.
+        face: usize,
+    },
+    /// A class of more loops than is sensible.
+    #[error("a loop of class {}, {} is too long to be written down", class[0], class[1])]
+    TooLong {
+        /// The class.
+        class: [i64; 2],
+    },
+}
+
+/// The longest walk of [`Homology::cycle`], in edges.
+const LONGEST: u64 = 1 << 28;
+
+impl Homology {
+    /// The basis made of shortest loops from the vertex `root`: see [`TreeCotree`]. `edges` are those of `disc.faces`.
+    ///
+    /// # Errors
+    /// A surface that is not closed, connected, oriented, of genus 1.
+    pub fn new(disc: &Disc, edges: &Edges, root: u32) -> Result<Self, HomologyError> {
+        let boundary = (0..edges.len()).filter(|&e| edges.corners(e).len() < 2).count();
+        if boundary > 0 {
+            return Err(HomologyError::Boundary { edges: boundary });
+        }
+        if let Some(face) = disagreeing(disc, edges) {
+            return Err(HomologyError::Orientation { face });
+        }
+        let length = edges.ends.iter().map(|&[a, b]| {
+            let [a, b] = [a, b].map(|v| disc.positions[v as usize]);
+            vector::norm(vector::sub(b, a))
+        });
+        let graph = EdgeGraph::new(&disc.faces, edges, disc.positions.len(), length.collect());
+        let system = TreeCotree::new(&graph, root);
+        let roots = system.face_parent.iter().filter(|&&e| e == ShortestPaths::NONE).count();
+        if roots != 1 || system.tree.distance.iter().any(|d| d.is_infinite()) {
+            return Err(HomologyError::Disconnected);
+        }
+        match system.left_over.len() {
+            2 => {}
+            0 => return Err(HomologyError::Sphere),
+            loops => return Err(HomologyError::Genus { genus: loops / 2 }),
+        }
+
+        let mut form = vec![[0i8; 2]; disc.faces.corners().len()];
+        let mut add = |c: usize, k: usize, value: i8| form[c][k] += value;
+        for k in [0, 1] {
+            for c in system.dual_loop(&graph, k) {
+                add(c as usize, k, 1);
+                if let Some(opposite) = edges.opposite(c as usize) {
+                    add(opposite, k, -1);
+                }
+            }
+        }
+        if twice_degree(disc, &form) < 0 {
+            form.iter_mut().for_each(|f| f[1] = -f[1]);
+        }
+        let generators = generators(&graph, &system, &form);
+        Ok(Homology { form, generators })
+    }
+
+    /// A short closed walk of the given class. It passes through the root of the basis, but for what it would run to and
+    /// fro, and is simple for the classes of the shortest loops.
+    ///
+    /// # Errors
+    /// A class so large that the walk would have more than 2²⁸ edges.
+    pub fn cycle(&self, disc: &Disc, class: [i64; 2]) -> Result<Cycle, HomologyError> {
+        let too_long = || HomologyError::TooLong { class };
+        let mut best: Option<(f64, [(usize, i64); 2])> = None;
+        for i in 0..self.generators.len() {
+            for j in 0..i {
+                let [a, b] = [i, j].map(|k| self.generators[k].class);
+                let determinant = a[0] * b[1] - a[1] * b[0];
+                if determinant.abs() != 1 {
+                    continue;
+                }
+                // class = m a + n b
+                let cross = |x: [i64; 2], y: [i64; 2]| {
+                    Some(x[0].checked_mul(y[1])?.checked_sub(x[1].checked_mul(y[0])?)? * determinant)
+                };
+                let (Some(m), Some(n)) = (cross(class, b), cross(a, class)) else { return Err(too_long()) };
+                let length = m.abs() as f64 * self.generators[i].length + n.abs() as f64 * self.generators[j].length;
+                if best.is_none_or(|(shortest, _)| length < shortest) {
+                    best = Some((length, [(i, m), (j, n)]));
+                }
+            }
+        }
+        let Some((_, word)) = best else { return Err(too_long()) };
+        let edges =
+            |(k, times): (usize, i64)| times.unsigned_abs().saturating_mul(self.generators[k].edges.len() as u64);
+        if word.into_iter().map(edges).fold(0, u64::saturating_add) > LONGEST {
+            return Err(too_long());
+        }
+        Ok(self.concatenated(disc, class, word))
+    }
+
+    /// Generators one behind the other, each the given number of times, negative ones backwards.
+    fn concatenated(&self, disc: &Disc, class: [i64; 2], word: [(usize, i64); 2]) -> Cycle {
+        let mut walk: Vec<(u32, u32)> = Vec::new();
+        for (k, times) in word {
+            let Cycle { vertices, edges, .. } = &self.generators[k];
+            let n = vertices.len();
+            for _ in 0..times.unsigned_abs() {
+                for i in 0..n {
+                    // Backwards the edge of the vertex before leads on.
+                    let step =
+                        if times > 0 { (vertices[i], edges[i]) } else { (vertices[(n - i) % n], edges[n - 1 - i]) };
+                    push_or_cancel(&mut walk, step);
+                }
+            }
+        }
+        let walk = without_tail(&walk);
+        let (vertices, edges): (Vec<u32>, Vec<u32>) = walk.iter().copied().unzip();
+        let places = vertices.iter().map(|&v| disc.positions[v as usize]);
+        let ahead = places.clone().cycle().skip(1);
+        let length = places.zip(ahead).map(|(a, b)| vector::norm(vector::sub(b, a))).sum();
+        Cycle { class, vertices, edges, length }
+    }
+}
+
+/// A face that runs through an edge in the same direction as its neighbour.
+fn disagreeing(disc: &Disc, edges: &Edges) -> Option<usize> {
+    let placed = |c: u32| (edges.face_of_corner[c as usize] as usize, c as usize);
+    let edge = (0..edges.len()).find(|&e| match *edges.corners(e) {
+        [c, d] => same_direction(&disc.faces, placed(c), placed(d)),
+        _ => true,
+    })?;
+    Some(edges.face_of_corner[edges.corners(edge)[0] as usize] as usize)
+}
+
+/// Twice ∫ α1 ∧ α2, the area of all faces in the plane of (∫α1, ∫α2): 2 or −2.
+fn twice_degree(disc: &Disc, form: &[[i8; 2]]) -> i64 {
+    let mut twice = 0;
+    for face in 0..disc.faces.len() {
+        let mut at = [0i64; 2];
+        for c in disc.faces.corner_range(face) {
+            let next = [0, 1].map(|k| at[k] + i64::from(form[c][k]));
+            twice += at[0] * next[1] - at[1] * next[0];
+            at = next;
+        }
+    }
+    twice
+}
+
+/// Of the loops that one edge closes with the tree the shortest of each class.
+fn generators(graph: &EdgeGraph, system: &TreeCotree, form: &[[i8; 2]]) -> Vec<Cycle> {
+    // A tree cuts a torus open along at most three classes of edges.
+    let mut shortest: Vec<([i64; 2], f64, usize)> = Vec::new();
+    for e in 0..graph.edges.len() {
+        let c = graph.edges.corners(e)[0] as usize;
+        let class = form[c].map(i64::from);
+        if class == [0, 0] {
+            continue;
+        }
+        let [a, b] = graph.ends(e as u32).map(|n| system.tree.distance[n as usize]);
+        let length = a + graph.length[e] + b;
+        match shortest.iter_mut().find(|(known, ..)| *known == class || *known == class.map(|x| -x)) {
+            Some(entry) if length < entry.1 => *entry = (class, length, c),
+            Some(_) => {}
+            None => shortest.push((class, length, c)),
+        }
+    }
+    shortest.into_iter().map(|(class, length, c)| cycle_through(graph, system, class, length, c)).collect()
+}
+
+/// From the root to the corner `c`, along its edge, and back.
+fn cycle_through(graph: &EdgeGraph, system: &TreeCotree, class: [i64; 2], length: f64, c: usize) -> Cycle {
+    let faces = graph.faces;
+    let face = graph.edges.face_of_corner[c] as usize;
+    let (from, to) = (faces.corners()[c], faces.corners()[next_in(faces, face, c)]);
+    let mut walk: Vec<(u32, u32)> = Vec::new();
+    let mut there: Vec<(u32, u32)> = Vec::new();
+    let mut n = from;
+    for e in system.tree.path(graph, from) {
+        n = graph.across(e, n);
+        there.push((n, e));
+    }
+    walk.extend(there.iter().rev());
+    walk.push((from, graph.edges.of_corner[c]));
+    n = to;
+    for e in system.tree.path(graph, to) {
+        walk.push((n, e));
+        n = graph.across(e, n);
+    }
+    let (vertices, edges) = walk.into_iter().unzip();
+    Cycle { class, vertices, edges, length }
+}
+
+/// A step back along the edge just taken takes that one away.
+fn push_or_cancel(walk: &mut Vec<(u32, u32)>, step: (u32, u32)) {
+    if walk.last().is_some_and(|last| last.1 == step.1) {
+        walk.pop();
+    } else {
+        walk.push(step);
+    }
+}
+
+/// A closed walk without the steps that its end takes back from its beginning.
+fn without_tail(walk: &[(u32, u32)]) -> &[(u32, u32)] {
+    let mut rest = walk;
+    while let [first, middle @ .., last] = rest
+        && first.1 == last.1
+    {
+        rest = middle;
+    }
+    rest
+}

@@ -1,0 +1,289 @@
+//! A tree of shortest paths over the vertices, a maximum spanning tree over the faces, and the 2g edges that neither has.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use crate::surface::edges::Edges;
+use crate::surface::{Faces, UnionFind};
+
+/// The vertices and inner edges of a connected, edge-manifold surface as a graph; every boundary loop is one node.
+///
+/// With each loop contracted, the surface is as good as closed: nodes − inner edges + faces = 2 − 2g.
+#[derive(Clone, Debug)]
+pub struct EdgeGraph<'a> {
+    /// The faces.
+    pub faces: &'a Faces,
+    /// Their edges; all indices of edges below are these.
+    pub edges: &'a Edges,
+    /// The node of each vertex: vertices share one where they are on the same boundary loop.
+    pub node: Vec<u32>,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Nodes that are boundary loops.
+    pub loops: Vec<u32>,
+    /// The length of each edge.
+    pub length: Vec<f64>,
+    offsets: Vec<u32>,
+    incident: Vec<u32>,
+    neighbour: Vec<u32>,
+}
+
+impl<'a> EdgeGraph<'a> {
+    /// The graph of a surface of `vertices` vertices with one fan of faces each, edge `e` being `length[e]` ≥ 0 long.
+    pub fn new(faces: &'a Faces, edges: &'a Edges, vertices: usize, length: Vec<f64>) -> Self {
+        let mut joined = UnionFind::new(vertices);
+        let mut on_boundary = Vec::new();
+        for e in 0..edges.len() {
+            if edges.corners(e).len() < 2 {
+                let [a, b] = edges.ends[e];
+                joined.unite(a, b);
+                on_boundary.push(a);
+            }
+        }
+        let (node, nodes) = joined.labels();
+        let mut loops: Vec<u32> = on_boundary.iter().map(|&v| node[v as usize]).collect();
+        loops.sort_unstable();
+        loops.dedup();
+
+        let inner = || (0..edges.len()).filter(|&e| edges.corners(e).len() == 2);
+        let mut offsets = vec![0u32; nodes + 1];
+        for e in inner() {
+            for v in edges.ends[e] {
+                offsets[node[v as usize] as usize + 1] += 1;
+            }
+        }
+        for n in 0..nodes {
+            offsets[n + 1] += offsets[n];
+        }
+        let mut incident = vec![0; offsets[nodes] as usize];
+        let mut neighbour = vec![0; offsets[nodes] as usize];
+        let mut cursor = offsets.clone();
+        for e in inner() {
+            let [a, b] = edges.ends[e].map(|v| node[v as usize]);
+            for (from, to) in [(a, b), (b, a)] {
+                let slot = &mut cursor[from as usize];
+                incident[*slot as usize] = e as u32;
+                neighbour[*slot as usize] = to;
+                *slot += 1;
+            }
+        }
+        EdgeGraph { faces, edges, node, nodes, loops, length, offsets, incident, neighbour }
+    }
+
+    /// The nodes at the ends of edge `e`.
+    pub fn ends(&self, e: u32) -> [u32; 2] {
+        self.edges.ends[e as usize].map(|v| self.node[v as usize])
+    }
+
+    /// The node across edge `e` from node `n`.
+    pub fn across(&self, e: u32, n: u32) -> u32 {
+        let [a, b] = self.ends(e);
+        if a == n { b } else { a }
+    }
+
+    /// The inner edges at node `n`; one from the node to itself is there twice.
+    pub fn edges_at(&self, n: u32) -> &[u32] {
+        &self.incident[self.around(n)]
+    }
+
+    /// The nodes across these edges.
+    pub fn neighbours(&self, n: u32) -> &[u32] {
+        &self.neighbour[self.around(n)]
+    }
+
+    fn around(&self, n: u32) -> std::ops::Range<usize> {
+        self.offsets[n as usize] as usize..self.offsets[n as usize + 1] as usize
+    }
+
+    /// Whether edge `e` has a face on either side.
+    pub fn is_inner(&self, e: u32) -> bool {
+        self.edges.corners(e as usize).len() == 2
+    }
+
+    /// The two faces of an inner edge.
+    pub fn sides(&self, e: u32) -> [u32; 2] {
+        let corners = self.edges.corners(e as usize);
+        [corners[0], corners[corners.len() - 1]].map(|c| self.edges.face_of_corner[c as usize])
+    }
+}
+
+/// Shortest paths from some nodes to all others (Dijkstra).
+#[derive(Clone, Debug)]
+pub struct ShortestPaths {
+    /// The distance of each node from the nearest source; infinite where none is connected to it.
+    pub distance: Vec<f64>,
+    /// The last edge of the shortest path to each node, or [`ShortestPaths::NONE`] at sources.
+    pub parent: Vec<u32>,
+}
+
+impl ShortestPaths {
+    /// Stands for no edge.
+    pub const NONE: u32 = u32::MAX;
+
+    /// Shortest paths from any of `sources`, nodes of `graph`.
+    pub fn new(graph: &EdgeGraph, sources: impl IntoIterator<Item = u32>) -> Self {
+        let mut distance = vec![f64::INFINITY; graph.nodes];
+        let mut parent = vec![Self::NONE; graph.nodes];
+        // The bits of doubles that are not negative are in the order of their values.
+        let mut queue: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
+        for n in sources {
+            distance[n as usize] = 0.0;
+            queue.push(Reverse((0, n)));
+        }
+        while let Some(Reverse((bits, n))) = queue.pop() {
+            let d = f64::from_bits(bits);
+            if d > distance[n as usize] {
+                continue;
+            }
+            for (&e, &m) in graph.edges_at(n).iter().zip(graph.neighbours(n)) {
+                let there = d + graph.length[e as usize];
+                if there < distance[m as usize] {
+                    distance[m as usize] = there;
+                    parent[m as usize] = e;
+                    queue.push(Reverse((there.to_bits(), m)));
+                }
+            }
+        }
+        ShortestPaths { distance, parent }
+    }
+
+    /// The edges of the shortest path to node `n`, from there back to its source.
+    pub fn path<'a>(&'a self, graph: &'a EdgeGraph, mut n: u32) -> impl Iterator<Item = u32> + 'a {
+        std::iter::from_fn(move || {
+            let e = self.parent[n as usize];
+            if e == Self::NONE {
+                return None;
+            }
+            n = graph.across(e, n);
+            Some(e)
+        })
+    }
+}
+
+/// The greedy system of loops of a surface of genus g (Erickson, Whittlesey, *Greedy optimal homotopy and homology
+/// generators*, SODA 2005).
+///
+/// The tree is that of shortest paths from a root. The cotree spans the faces across edges uv that the tree has not, with
+/// greatest sum of d(u) + |uv| + d(v), the length of the shortest loop from the root through uv. Each of the 2g edges left
+/// over closes one loop with the tree; together these are the shortest loops from the root that cut the surface to a disc,
+/// boundary loops counting as points.
+#[derive(Clone, Debug)]
+pub struct TreeCotree {
+    /// The node all paths start from.
+    pub root: u32,
+    /// The tree: distances of the nodes, and the edge toward the root from each.
+    pub tree: ShortestPaths,
+    /// The cotree: the edge to cross from each face toward face 0; [`ShortestPaths::NONE`] there.
+    pub face_parent: Vec<u32>,
+    /// The 2g edges of neither tree, that of the shortest loop first.
+    pub left_over: Vec<u32>,
+}
+
+impl TreeCotree {
+    /// The system of loops from the node `root`.
+    pub fn new(graph: &EdgeGraph, root: u32) -> Self {
+        let tree = ShortestPaths::new(graph, [root]);
+        let mut in_tree = vec![false; graph.edges.len()];
+        for &e in tree.parent.iter().filter(|&&e| e != ShortestPaths::NONE) {
+            in_tree[e as usize] = true;
+        }
+        let loop_length = |e: u32| {
+            let [a, b] = graph.ends(e).map(|n| tree.distance[n as usize]);
+            a + graph.length[e as usize] + b
+        };
+        let mut others: Vec<(u64, u32)> = (0..graph.edges.len() as u32)
+            .filter(|&e| graph.is_inner(e) && !in_tree[e as usize])
+            .map(|e| (loop_length(e).to_bits(), e))
+            .collect();
+        others.sort_unstable();
+        let mut joined = UnionFind::new(graph.faces.len());
+        let mut in_cotree = in_tree;
+        in_cotree.fill(false);
+        let mut left_over = Vec::new();
+        for &(_, e) in others.iter().rev() {
+            let [f, g] = graph.sides(e);
+            if joined.find(f) == joined.find(g) {
+                left_over.push(e);
+            } else {
+                joined.unite(f, g);
+                in_cotree[e as usize] = true;
+            }
+        }
+        left_over.reverse();
+        TreeCotree { root, tree, face_parent: toward_first_face(graph, &in_cotree), left_over }
+    }
+
+    /// The `k`-th loop as a closed walk of edges from the root: a path of the tree, an edge left over, a path back. The
+    /// two paths may begin with the same edges.
+    pub fn loop_edges(&self, graph: &EdgeGraph, k: usize) -> Vec<u32> {
+        let e = self.left_over[k];
+        let [a, b] = graph.ends(e);
+        let mut walk: Vec<u32> = self.tree.path(graph, a).collect();
+        walk.reverse();
+        walk.push(e);
+        walk.extend(self.tree.path(graph, b));
+        walk
+    }
+
+    /// The closed walk through faces that crosses the `k`-th edge left over and otherwise edges of the cotree alone, as
+    /// the corners whose edges it crosses, each a corner of the face that it leaves. No edge is crossed twice.
+    ///
+    /// The integers `ω(c) = 1` on these corners, −1 on their opposite ones and 0 elsewhere sum to zero around every face:
+    /// where neighbouring faces run through their common edge in opposite directions, ω is a closed 1-form, 1 or −1 along
+    /// the `k`-th loop and 0 along all the others.
+    pub fn dual_loop(&self, graph: &EdgeGraph, k: usize) -> Vec<u32> {
+        let edges = graph.edges;
+        let &[c, d] = edges.corners(self.left_over[k] as usize) else { return Vec::new() };
+        let [mut from, mut back] = [c, d].map(|c| self.toward_root(graph, edges.face_of_corner[c as usize]));
+        // What both share of their ways to the root of the cotree is not needed.
+        while let (Some(&a), Some(&b)) = (from.last(), back.last())
+            && a == b
+        {
+            from.pop();
+            back.pop();
+        }
+        // Out of c's face across the edge left over, to the common face, and back to c's face.
+        let opposite = |c: &u32| edges.opposite(*c as usize).map(|o| o as u32);
+        let mut walk = vec![c];
+        walk.extend(back);
+        walk.extend(from.iter().rev().filter_map(opposite));
+        walk
+    }
+
+    /// The corners whose edges lie between face `f` and the root of the cotree, each of the face that is left.
+    fn toward_root(&self, graph: &EdgeGraph, mut f: u32) -> Vec<u32> {
+        let mut way = Vec::new();
+        while self.face_parent[f as usize] != ShortestPaths::NONE {
+            let corners = graph.edges.corners(self.face_parent[f as usize] as usize);
+            let face = |c: u32| graph.edges.face_of_corner[c as usize];
+            let (out, into) = if face(corners[0]) == f { (corners[0], corners[1]) } else { (corners[1], corners[0]) };
+            way.push(out);
+            f = face(into);
+        }
+        way
+    }
+}
+
+/// For each face the edge of the cotree toward face 0.
+fn toward_first_face(graph: &EdgeGraph, in_cotree: &[bool]) -> Vec<u32> {
+    let edges = graph.edges;
+    let mut parent = vec![ShortestPaths::NONE; graph.faces.len()];
+    let mut queue = Vec::with_capacity(graph.faces.len());
+    queue.extend((!graph.faces.is_empty()).then_some(0u32));
+    let mut head = 0;
+    while head < queue.len() {
+        let f = queue[head];
+        head += 1;
+        for c in graph.faces.corner_range(f as usize) {
+            let e = edges.of_corner[c];
+            if !in_cotree[e as usize] || parent[f as usize] == e {
+                continue;
+            }
+            let Some(d) = edges.opposite(c) else { continue };
+            let g = edges.face_of_corner[d];
+            parent[g as usize] = e;
+            queue.push(g);
+        }
+    }
+    parent
+}
