@@ -6,9 +6,9 @@ use serde::Deserialize;
 
 use crate::io::{self, ReadError, Sample, VertexText, VolumeError, VolumeOptions};
 use crate::surface::Surface;
-use crate::surface::topology::diagnosis::{Diagnosis, Finding};
 use crate::surface::digital::{self, Adjacency, Digital, DigitalError};
 use crate::surface::generate::{GenerateError, generate, is_generated_name};
+use crate::surface::topology::diagnosis::{Diagnosis, Finding};
 
 /// A surface with what its source tells beside it.
 #[derive(Clone, Debug)]

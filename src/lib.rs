@@ -21,7 +21,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`surface`] | positions and polygons; [`Diagnosis`](surface::diagnosis::Diagnosis): what it is and what is wrong; [`Disc`](surface::disc::Disc) and how a surface is [cut](surface::cut) to one; [`digital`](surface::digital): voxels, their boundaries; estimated [`normals`](surface::normals); generated surfaces |
+//! | [`surface`] | positions and polygons; [`Diagnosis`](surface::diagnosis::Diagnosis): what it is and what is wrong; [`OrientedMesh`](surface::disc::OrientedMesh) and how a surface is [cut](surface::cut) to one; [`digital`](surface::digital): voxels, their boundaries; estimated [`normals`](surface::normals); generated surfaces |
 //! | [`quad_graph`] | quads, ρ, boundary; rest lengths and areas; dual points |
 //! | [`energy`] | H, C, A, L, L', MIPS, SD with all derivatives; `H + 0.5 L` as an expression |
 //! | [`constraint`] | held vertices, shapes of the boundary, gauges; elimination x = Z y + x0 |

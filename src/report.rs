@@ -5,12 +5,12 @@ use serde::Serialize;
 
 use crate::distortion::{Distortion, Validity};
 use crate::input::Input;
-use crate::map::{Domain, Exactly, LengthsRecord, Map, Mapped};
 use crate::map::periodic::PeriodsRecord;
+use crate::map::{Domain, Exactly, LengthsRecord, Map, Mapped};
 use crate::quad_graph::QuadGraph;
 use crate::surface::cut::CutRecord;
 use crate::surface::digital::{Adjacency, Digital};
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::Component;
 
 /// One map, from input to distortion.
@@ -79,9 +79,9 @@ impl SurrogatesRecord {
     const NAMED: usize = 10;
 
     /// That of a disc; `None` where no face of the source has a surrogate.
-    pub fn new(disc: &Disc) -> Option<Self> {
+    pub fn new(disc: &OrientedMesh) -> Option<Self> {
         let faces: Vec<u32> = disc.surrogates.faces.iter().map(|&f| disc.source_face[f as usize]).collect();
-        let count = faces.iter().filter(|&&f| f != Disc::NEW).count();
+        let count = faces.iter().filter(|&&f| f != OrientedMesh::NEW).count();
         (count > 0).then(|| SurrogatesRecord {
             count,
             shape: if disc.faces.arity() == Some(3) { "lifted" } else { "rectangle" },
@@ -280,7 +280,7 @@ impl EnergyRecord {
 
 impl ErrorRecord {
     /// The distance of a map to the exact one, `w` at the vertices of the source, over the vertices that both have.
-    pub fn new(w: &[[f64; 2]], disc: &Disc, map: &Map) -> Self {
+    pub fn new(w: &[[f64; 2]], disc: &OrientedMesh, map: &Map) -> Self {
         let both = disc.source_vertex.iter().zip(&map.z).filter_map(|(&v, z)| Some((w.get(v as usize)?, z)));
         let distances = both.map(|(&[x, y], z)| (z.re - x).hypot(z.im - y));
         let (mut max, mut squares, mut count) = (0.0f64, 0.0, 0usize);

@@ -4,12 +4,12 @@ mod common;
 
 use common::*;
 use num_complex::Complex64;
-use riemap::solver::{LinearBackend, Observer, Phase, Silent, SolveError, Unsuitable, solve_linear};
 use riemap::constraint::{Shape, on_shape};
 use riemap::energy::conformal::{self, Weight};
 use riemap::problem::linear::LinearProblem;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint};
+use riemap::solver::{LinearBackend, Observer, Phase, Silent, SolveError, Unsuitable, solve_linear};
 use riemap::surface::generate::{Form, Immersion, Parameter, Row, generate_from};
 
 /// The symmedian point: barycentric weights a², b², c². Inside every triangle.

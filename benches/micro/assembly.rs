@@ -2,9 +2,9 @@
 
 use divan::{Bencher, black_box};
 use riemap::map::{Domain, MapOptions};
-use riemap::problem::nonlinear::HessianAssembly;
 use riemap::problem::linear::system;
-use riemap::surface::oriented_mesh::Disc;
+use riemap::problem::nonlinear::HessianAssembly;
+use riemap::surface::oriented_mesh::OrientedMesh;
 
 use crate::fixture::{Mesh, meshes, objective};
 
@@ -17,7 +17,7 @@ fn diagnosis(bencher: Bencher, mesh: Mesh) {
 #[divan::bench(args = meshes())]
 fn quad_graph(bencher: Bencher, mesh: Mesh) {
     let input = mesh.input();
-    let disc = Disc::new(&input.surface, &input.diagnosis()).expect("a disc");
+    let disc = OrientedMesh::new(&input.surface, &input.diagnosis()).expect("a disc");
     let options = MapOptions::default();
     bencher.with_inputs(|| disc.clone()).bench_local_values(|disc| Domain::of_positions(disc, &options));
 }

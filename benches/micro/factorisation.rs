@@ -1,9 +1,9 @@
 //! Sparse Cholesky factors: of the interior's Laplacian, and of a Hessian.
 
 use divan::{Bencher, black_box};
-use riemap::solver::boundary::Reduction;
 use riemap::energy::Curvature;
 use riemap::problem::nonlinear::HessianAssembly;
+use riemap::solver::boundary::Reduction;
 use riemap::sparse::Analysis;
 
 use crate::fixture::{Mesh, meshes, objective};

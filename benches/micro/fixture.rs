@@ -3,7 +3,6 @@
 use std::fmt;
 
 use num_complex::Complex64;
-use riemap::solver::Silent;
 use riemap::constraint::{Fixed, Freedoms};
 use riemap::energy::conformal::{Dirichlet, Weight};
 use riemap::energy::{Rest, energy};
@@ -11,6 +10,7 @@ use riemap::input::Input;
 use riemap::map::{Boundary, MapOptions, Mapped, run};
 use riemap::problem::nonlinear::Objective;
 use riemap::quad_graph::metric::RestMetric;
+use riemap::solver::Silent;
 
 /// A mesh by the vertices along a side.
 #[derive(Clone, Copy)]

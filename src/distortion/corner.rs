@@ -2,9 +2,9 @@ use num_complex::Complex64;
 
 use super::singular::singular_values;
 use super::{FaceMap, Image};
-use crate::quad_graph::TangentPlanes;
-use crate::surface::oriented_mesh::Disc;
 use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::quad_graph::TangentPlanes;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// For every face but those put into holes the largest σ1/σ2 of the triangles that its corners make with their neighbours:
 /// of a triangle its own, of a quad the worst of four. Negative where one of them is turned over, +∞ where one collapses.
@@ -12,7 +12,7 @@ use crate::geometry::vector::{cross, dot, norm, sub};
 /// The diagonals of a quad, and with them σ1/σ2 of its [`FaceMap`], do not see what becomes of its angles: a quad at the
 /// corner of a square keeps ρ while its angle of 90° is opened to 180° on a circle. Surfels are measured on their tangent
 /// planes. `maps` are those of [`super::face_maps`].
-pub fn corner_errors(disc: &Disc, planes: Option<&TangentPlanes>, image: &Image, maps: &[FaceMap]) -> Vec<f64> {
+pub fn corner_errors(disc: &OrientedMesh, planes: Option<&TangentPlanes>, image: &Image, maps: &[FaceMap]) -> Vec<f64> {
     let of_face = |(f, polygon): (usize, &[u32])| {
         if disc.surrogates.has(f) {
             return if maps[f].convex { 1.0 } else { f64::INFINITY };

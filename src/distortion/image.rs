@@ -1,7 +1,7 @@
 use num_complex::Complex64;
 
 use crate::quad_graph::{Periods, QuadGraph};
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Where a map puts the corners of faces and quads.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ impl<'a> Image<'a> {
     }
 
     /// The corner `c` of a face of the mesh, beside that face's first corner.
-    pub fn corner(&self, disc: &Disc, c: usize) -> Complex64 {
+    pub fn corner(&self, disc: &OrientedMesh, c: usize) -> Complex64 {
         let z = self.z[disc.faces.corners()[c] as usize];
         match self.cover {
             Some((periods, omega)) => z + Periods::translation(periods.corners[c], omega),

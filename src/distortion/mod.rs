@@ -16,10 +16,10 @@ use serde::Serialize;
 
 use crate::energy::conformal;
 use crate::geometry::polygon::boundary_crossing;
-use crate::quad_graph::{QuadGraph, TangentPlanes};
-use crate::surface::oriented_mesh::Disc;
-use crate::surface::edges::next_in;
 use crate::geometry::vector::{norm, sub};
+use crate::quad_graph::{QuadGraph, TangentPlanes};
+use crate::surface::edges::next_in;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Mean and extreme of a quantity that is 1 (a ratio) or 0 (a residual) for a perfect map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -73,7 +73,7 @@ pub struct Distortion {
 
 impl Distortion {
     /// Measures a map of `disc`, of which `graph` was made with the given tangent planes.
-    pub fn new(disc: &Disc, graph: &QuadGraph, planes: Option<&TangentPlanes>, image: &Image) -> Self {
+    pub fn new(disc: &OrientedMesh, graph: &QuadGraph, planes: Option<&TangentPlanes>, image: &Image) -> Self {
         let maps = face_maps(disc, graph, image);
         let scale = area_scale(&maps);
         let valid: Vec<&FaceMap> = maps.iter().filter(|m| m.is_regular()).collect();
@@ -106,7 +106,7 @@ pub fn mesh_boundary(graph: &QuadGraph, z: &[Complex64]) -> Vec<Complex64> {
 }
 
 /// Whether quad `q` is, or lies partly in, a face that was put into a hole.
-fn in_filled_face(disc: &Disc, graph: &QuadGraph, q: usize) -> bool {
+fn in_filled_face(disc: &OrientedMesh, graph: &QuadGraph, q: usize) -> bool {
     let (first, last) = (disc.source_faces(), disc.faces.len());
     match graph.primal == graph.vertices {
         true => q >= first,
@@ -167,7 +167,12 @@ fn symmetric_dirichlet(valid: &[&FaceMap], scale: f64) -> Option<f64> {
 }
 
 /// Over the edges of all faces, inner edges counting from both sides.
-fn length_distortion(disc: &Disc, planes: Option<&TangentPlanes>, image: &Image, scale: f64) -> Option<MeanMax> {
+fn length_distortion(
+    disc: &OrientedMesh,
+    planes: Option<&TangentPlanes>,
+    image: &Image,
+    scale: f64,
+) -> Option<MeanMax> {
     let faces = &disc.faces;
     let ratio = |f: usize, c: usize| {
         let next = next_in(faces, f, c);

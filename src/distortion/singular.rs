@@ -3,9 +3,9 @@ use num_complex::Complex64;
 use super::Image;
 use crate::energy::conformal;
 use crate::geometry::predicate::{diagonals_cross_left, orientation};
-use crate::quad_graph::QuadGraph;
-use crate::surface::oriented_mesh::Disc;
 use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::quad_graph::QuadGraph;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// The affine map of one face, `z ↦ a z + b z̄` in the face's own plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ impl FaceMap {
 
 /// The affine maps of all faces of `disc` but those put into holes, triangles by their vertices, quads by their diagonals and ρ; without
 /// singular values where the face has a surrogate at rest.
-pub fn face_maps(disc: &Disc, graph: &QuadGraph, image: &Image) -> Vec<FaceMap> {
+pub fn face_maps(disc: &OrientedMesh, graph: &QuadGraph, image: &Image) -> Vec<FaceMap> {
     let of_face = |f: usize, polygon: &[u32]| match *polygon {
         [i, j, k] => {
             let first = disc.faces.corner_range(f).start;
@@ -57,7 +57,7 @@ pub fn face_maps(disc: &Disc, graph: &QuadGraph, image: &Image) -> Vec<FaceMap> 
 }
 
 /// With the edge i → j as 0 → ℓ and the third vertex at wℓ, `z_j − z_i = (a + b)ℓ`, `z_k − z_i = (a w + b w̄)ℓ`.
-fn triangle(disc: &Disc, [i, j, k]: [u32; 3], [zi, zj, zk]: [Complex64; 3]) -> FaceMap {
+fn triangle(disc: &OrientedMesh, [i, j, k]: [u32; 3], [zi, zj, zk]: [Complex64; 3]) -> FaceMap {
     let [x, y, t] = [i, j, k].map(|v| disc.positions[v as usize]);
     let (edge, third) = (sub(y, x), sub(t, x));
     let (length_squared, twice_area) = (dot(edge, edge), norm(cross(edge, third)));

@@ -2,8 +2,8 @@ use num_complex::Complex64;
 
 use crate::geometry::polygon::boundary_crossing;
 use crate::geometry::predicate::orientation;
-use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::{Edges, next_in};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Whether a map is one-to-one: the exact check, on the very doubles that are given.
 ///
@@ -11,7 +11,7 @@ use crate::surface::edges::{Edges, next_in};
 /// each point is that of the boundary around it, 0 or 1, and no face takes anything away from it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Validity {
-    /// The faces of which some corner does not turn left, ascending, as the source numbers them; [`Disc::NEW`] for those put into
+    /// The faces of which some corner does not turn left, ascending, as the source numbers them; [`OrientedMesh::NEW`] for those put into
     /// holes.
     pub folded: Vec<u32>,
     /// The vertices around which the faces lie more than once (at the boundary: once and more), where no face is folded; ascending, as
@@ -23,7 +23,7 @@ pub struct Validity {
 
 impl Validity {
     /// Checks the map that puts corner `c` of the faces of `disc` at `place(c)`, beside the other corners of its face.
-    pub fn new(disc: &Disc, place: impl Fn(usize) -> Complex64) -> Self {
+    pub fn new(disc: &OrientedMesh, place: impl Fn(usize) -> Complex64) -> Self {
         let faces = &disc.faces;
         let folded: Vec<u32> = folded_faces(disc, &place).into_iter().map(|f| disc.source_face[f as usize]).collect();
         let mut corner_of = vec![0; disc.positions.len()];
@@ -48,7 +48,7 @@ impl Validity {
 }
 
 /// The faces of `disc` of which some corner does not turn left, ascending, exactly.
-pub fn folded_faces(disc: &Disc, place: impl Fn(usize) -> Complex64) -> Vec<u32> {
+pub fn folded_faces(disc: &OrientedMesh, place: impl Fn(usize) -> Complex64) -> Vec<u32> {
     let is_folded = |f: &u32| {
         let corners = disc.faces.corner_range(*f as usize);
         let n = corners.len();
@@ -62,7 +62,7 @@ pub fn folded_faces(disc: &Disc, place: impl Fn(usize) -> Complex64) -> Vec<u32>
 ///
 /// Seen from an inner vertex the opposite sides of its corners go round counter-clockwise: as often as they cross the ray to the right
 /// of it upwards. Of a boundary vertex the corners lie one beside the other from its first edge on, and must not come back to that.
-fn wound(disc: &Disc, place: &impl Fn(usize) -> Complex64) -> Vec<u32> {
+fn wound(disc: &OrientedMesh, place: &impl Fn(usize) -> Complex64) -> Vec<u32> {
     let faces = &disc.faces;
     let previous =
         |f: usize, c: usize| if c == faces.corner_range(f).start { faces.corner_range(f).end - 1 } else { c - 1 };

@@ -3,11 +3,11 @@
 use num_complex::Complex64;
 
 use super::{Boundary, Domain, Map, MapError, MapOptions, Valid};
-use crate::solver::Observer;
-use crate::solver::convex::{ConvexSolution, Towards, convex_map, edge_weights, outward};
 use crate::constraint::Fixed;
 use crate::distortion::{Validity, folded_faces};
 use crate::energy::conformal;
+use crate::solver::Observer;
+use crate::solver::convex::{ConvexSolution, Towards, convex_map, edge_weights, outward};
 
 /// The weights that are tried where rounding has spoiled the map by others.
 const LAST_RESORT: &str = "outward";

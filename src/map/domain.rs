@@ -1,20 +1,20 @@
 use super::lengths::{Prescribed, prescribe};
 use super::{MapError, MapOptions, RhoSource};
+use crate::geometry::vector::scale;
 use crate::input::Input;
 use crate::quad_graph::metric::RestMetric;
 use crate::quad_graph::{QuadGraph, TangentPlanes, own_normal};
 use crate::surface::Surface;
-use crate::surface::topology::diagnosis::Diagnosis;
-use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::Edges;
 use crate::surface::normals::{Facets, NormalError, NormalSpec};
-use crate::geometry::vector::scale;
+use crate::surface::oriented_mesh::OrientedMesh;
+use crate::surface::topology::diagnosis::Diagnosis;
 
 /// A surface made ready to be mapped: in one piece, oriented, with a number ρ for every quad.
 #[derive(Clone, Debug)]
 pub struct Domain {
     /// The surface as it is mapped.
-    pub disc: Disc,
+    pub disc: OrientedMesh,
     /// The tangent planes that ρ was measured on, where it was not on the faces' own.
     pub planes: Option<TangentPlanes>,
     /// Its quad graph.
@@ -28,7 +28,7 @@ impl Domain {
     ///
     /// # Errors
     /// An unknown dual point; faces that give no ρ.
-    pub fn of_positions(disc: Disc, options: &MapOptions) -> Result<Self, MapError> {
+    pub fn of_positions(disc: OrientedMesh, options: &MapOptions) -> Result<Self, MapError> {
         Domain::with_planes(disc, None, options)
     }
 
@@ -36,7 +36,11 @@ impl Domain {
     ///
     /// # Errors
     /// An unknown dual point; faces that give no ρ; boundary lengths that no map has.
-    pub fn with_planes(disc: Disc, planes: Option<TangentPlanes>, options: &MapOptions) -> Result<Self, MapError> {
+    pub fn with_planes(
+        disc: OrientedMesh,
+        planes: Option<TangentPlanes>,
+        options: &MapOptions,
+    ) -> Result<Self, MapError> {
         let dual = options.dual_point()?;
         let mut graph = match disc.faces.arity() {
             Some(3) => QuadGraph::from_triangles(&disc, dual, options.boundary_dual)?,
@@ -71,7 +75,7 @@ impl Domain {
 pub(super) fn planes(
     input: &Input,
     diagnosis: &Diagnosis,
-    disc: &Disc,
+    disc: &OrientedMesh,
     options: &MapOptions,
 ) -> Result<Option<TangentPlanes>, MapError> {
     let spec = match (&options.normals, options.rho) {
@@ -100,7 +104,7 @@ pub(super) fn planes(
     }?;
     let estimated = spec.estimate(&facets)?;
     let of_face = |f: usize| match disc.source_face[f] {
-        Disc::NEW => own_normal(disc, disc.faces.get(f)).unwrap_or_default(),
+        OrientedMesh::NEW => own_normal(disc, disc.faces.get(f)).unwrap_or_default(),
         source => estimated[source as usize],
     };
     let normals = (0..disc.faces.len()).map(of_face).collect();

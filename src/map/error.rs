@@ -1,12 +1,12 @@
 use super::lengths::LengthsError;
-use crate::solver::convex::ConvexError;
-use crate::solver::boundary::Unreduced;
-use crate::solver::{MinimiseError, SolveError, Unsuitable};
 use crate::constraint::ConstraintError;
 use crate::energy::EnergyError;
 use crate::energy::conformal::NonPositiveRho;
 use crate::map::periodic::PeriodicError;
 use crate::quad_graph::QuadGraphError;
+use crate::solver::boundary::Unreduced;
+use crate::solver::convex::ConvexError;
+use crate::solver::{MinimiseError, SolveError, Unsuitable};
 use crate::surface::cut::CutError;
 use crate::surface::normals::NormalError;
 

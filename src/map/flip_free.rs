@@ -4,13 +4,13 @@
 use num_complex::Complex64;
 
 use super::{Boundary, Domain, MapError, MapOptions};
-use crate::solver::Observer;
-use crate::solver::convex::{convex_map, edge_weights};
 use crate::constraint::{Fixed, on_circle, spread_points};
 use crate::energy::conformal::Weight;
 use crate::energy::{Energy, Expression};
 use crate::quad_graph::QuadGraph;
 use crate::quad_graph::metric::RestMetric;
+use crate::solver::Observer;
+use crate::solver::convex::{convex_map, edge_weights};
 
 /// Whether the energy is +∞ where faces fold.
 pub(super) fn is_flip_free(expression: &Expression) -> bool {

@@ -9,7 +9,7 @@ use super::{Boundary, MapOptions};
 use crate::distortion::MeanMax;
 use crate::io::{BoundaryLengths, LengthUnit, PerEdge};
 use crate::quad_graph::QuadGraph;
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Why boundary edges cannot have the lengths that are asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -90,7 +90,7 @@ pub struct Prescribed {
 /// rest; the two halves of a triangle's edge the same factor.
 pub(super) fn prescribe(
     options: &MapOptions,
-    disc: &Disc,
+    disc: &OrientedMesh,
     graph: &mut QuadGraph,
 ) -> Result<Option<Prescribed>, LengthsError> {
     let Some(given) = &options.boundary_lengths else { return Ok(None) };
@@ -119,7 +119,7 @@ pub(super) fn prescribe(
 }
 
 /// The numbers of the edges along the boundary.
-fn in_order(given: &BoundaryLengths, disc: &Disc) -> Result<Vec<f64>, LengthsError> {
+fn in_order(given: &BoundaryLengths, disc: &OrientedMesh) -> Result<Vec<f64>, LengthsError> {
     let edges = disc.boundary.len();
     let named = match &given.values {
         PerEdge::InOrder(values) if values.len() == edges => return Ok(values.clone()),
@@ -150,7 +150,7 @@ fn in_order(given: &BoundaryLengths, disc: &Disc) -> Result<Vec<f64>, LengthsErr
 }
 
 /// The ends of the `k`-th boundary edge, as the source numbers them.
-fn ends(disc: &Disc, k: usize) -> [u32; 2] {
+fn ends(disc: &OrientedMesh, k: usize) -> [u32; 2] {
     [k, (k + 1) % disc.boundary.len()].map(|k| disc.source_vertex[disc.boundary[k] as usize])
 }
 
@@ -171,7 +171,7 @@ pub struct LengthsRecord {
 
 impl LengthsRecord {
     /// The record of a map of the graph, whose boundary lengths are those asked for.
-    pub fn new(prescribed: &Prescribed, disc: &Disc, graph: &QuadGraph, z: &[Complex64]) -> Self {
+    pub fn new(prescribed: &Prescribed, disc: &OrientedMesh, graph: &QuadGraph, z: &[Complex64]) -> Self {
         let (n, edges) = (graph.boundary.len(), disc.boundary.len());
         let errors = |step: usize| {
             let error = |k: usize| {

@@ -1,9 +1,9 @@
 use super::{Map, MapError, MapOptions};
-use crate::solver::{Observer, solve_linear};
 use crate::constraint::Fixed;
 use crate::energy::conformal;
 use crate::problem::linear::LinearProblem;
 use crate::quad_graph::QuadGraph;
+use crate::solver::{Observer, solve_linear};
 
 impl MapOptions {
     /// The map that minimises H over those that hold `fixed`.

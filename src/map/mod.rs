@@ -22,16 +22,16 @@ pub use texture::TextureCoordinates;
 
 use num_complex::Complex64;
 
-use crate::solver::{Observer, Phase};
 use crate::constraint::{Fixed, Shape};
 use crate::distortion::{Distortion, Image, Validity, mesh_boundary};
+use crate::geometry::polygon::out_of_order;
 use crate::input::Input;
 use crate::map::periodic::PeriodicMap;
-use crate::geometry::polygon::out_of_order;
+use crate::solver::{Observer, Phase};
 use crate::surface::cut::CutRecord;
-use crate::surface::topology::diagnosis::{Diagnosis, Finding, Severity};
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::Component;
+use crate::surface::topology::diagnosis::{Diagnosis, Finding, Severity};
 
 /// How a map was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,9 +154,9 @@ pub fn run(input: &Input, options: &MapOptions, watch: &mut dyn Observer) -> Res
     let is_periodic = options.boundary == Boundary::Periodic;
     let (mut disc, cut) = if is_periodic {
         options.check_periodic()?;
-        Disc::closed(&input.surface, &diagnosis, options.fill_holes)?
+        OrientedMesh::closed(&input.surface, &diagnosis, options.fill_holes)?
     } else {
-        Disc::open(&input.surface, &diagnosis, &options.opening())?
+        OrientedMesh::open(&input.surface, &diagnosis, &options.opening())?
     };
     options.shape_flat_faces(&mut disc);
     let planes = domain::planes(input, &diagnosis, &disc, options)?;

@@ -9,16 +9,16 @@ use super::flip_free::{self, hold_unseen, is_flip_free};
 use super::options::hold_pins;
 use super::reduced::{self, Attempt};
 use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, bijective};
-use crate::solver::minimise::smallest_singular_value;
-use crate::solver::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
 use crate::constraint::{Fixed, Freedoms, float_white_back, hold_gauge, on_circle, spread_points, turn_back};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Expression, Order, Rest, energy};
-use crate::problem::nonlinear::{Objective, Terms};
 use crate::problem::linear::LinearProblem;
+use crate::problem::nonlinear::{Objective, Terms};
 use crate::quad_graph::QuadGraph;
 use crate::quad_graph::metric::RestMetric;
-use crate::surface::oriented_mesh::Disc;
+use crate::solver::minimise::smallest_singular_value;
+use crate::solver::{MINIMISERS, Minimiser, Minimum, Observer, Status, StopRule, minimiser, solve_linear};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// A minimisation that ends at rounding counts as converged when it has brought the gradient down to this.
 const ACCEPTED_REDUCTION: f64 = 1e-5;
@@ -203,7 +203,7 @@ pub(super) fn anchors(
 }
 
 /// The pins that are on the boundary as anchors of the initial circle.
-fn pinned_anchors(options: &MapOptions, disc: &Disc, graph: &QuadGraph) -> Result<Anchors, MapError> {
+fn pinned_anchors(options: &MapOptions, disc: &OrientedMesh, graph: &QuadGraph) -> Result<Anchors, MapError> {
     let mut fixed = Fixed::default();
     hold_pins(&mut fixed, disc, &options.pins)?;
     let mut is_boundary = vec![false; graph.vertices];
@@ -245,7 +245,7 @@ fn increasing_angles(places: impl Iterator<Item = (usize, Complex64)>) -> Result
 fn initial(
     options: &MapOptions,
     expression: &Expression,
-    disc: &Disc,
+    disc: &OrientedMesh,
     graph: &QuadGraph,
     anchors: &Anchors,
 ) -> Result<Vec<Complex64>, MapError> {
@@ -265,7 +265,7 @@ fn initial(
 fn held(
     options: &MapOptions,
     expression: &Expression,
-    disc: &Disc,
+    disc: &OrientedMesh,
     graph: &QuadGraph,
     anchors: &Anchors,
     z: &[Complex64],

@@ -2,18 +2,18 @@ use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use super::MapError;
-use crate::solver::StopRule;
 use crate::constraint::{Fixed, Shape, on_shape};
 use crate::energy::Expression;
 use crate::energy::conformal::Weight;
 use crate::io::BoundaryLengths;
 use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS, DualPoint, dual_point};
 use crate::quad_graph::{QuadGraph, RestSource};
+use crate::solver::StopRule;
 use crate::surface::Surrogates;
 use crate::surface::cut::Opening;
-use crate::surface::topology::diagnosis::Diagnosis;
-use crate::surface::oriented_mesh::Disc;
 use crate::surface::normals::NormalSpec;
+use crate::surface::oriented_mesh::OrientedMesh;
+use crate::surface::topology::diagnosis::Diagnosis;
 
 /// A vertex of the source held at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -200,7 +200,7 @@ impl MapOptions {
     }
 
     /// Gives the faces of a disc that have no area a shape, where that is asked for.
-    pub(super) fn shape_flat_faces(&self, disc: &mut Disc) {
+    pub(super) fn shape_flat_faces(&self, disc: &mut OrientedMesh) {
         if let Some(height) = self.surrogate {
             disc.surrogates = Surrogates::new(&disc.positions, &disc.faces, height);
         }
@@ -226,7 +226,7 @@ impl MapOptions {
     ///
     /// # Errors
     /// Vertices that are not in use; a shape that the boundary is too short for.
-    pub fn fixed(&self, disc: &Disc, graph: &QuadGraph) -> Result<Fixed, MapError> {
+    pub fn fixed(&self, disc: &OrientedMesh, graph: &QuadGraph) -> Result<Fixed, MapError> {
         let mut whole = match &self.positions {
             None => on_shape(graph, self.shape)?,
             Some(positions) => {
@@ -247,7 +247,7 @@ impl MapOptions {
 }
 
 /// Holds vertices of the source at their places.
-pub(super) fn hold_pins(fixed: &mut Fixed, disc: &Disc, pins: &[Pin]) -> Result<(), MapError> {
+pub(super) fn hold_pins(fixed: &mut Fixed, disc: &OrientedMesh, pins: &[Pin]) -> Result<(), MapError> {
     for pin in pins {
         let copies = disc.copies(pin.vertex);
         let vertex = match copies.len() {

@@ -6,14 +6,14 @@ use std::f64::consts::TAU;
 use super::nonlinear::Anchors;
 use super::options::{Start, hold_pins};
 use super::{Boundary, Domain, Exactly, Map, MapError, MapOptions, Outcome};
-use crate::solver::boundary::{self, CircleProblem, FreeProblem, Reduction, Unreduced, circle_map, free_map};
-use crate::solver::{Observer, Phase, StopRule};
 use crate::constraint::{Fixed, hold_gauge};
 use crate::energy::Expression;
 use crate::energy::conformal::{self, Weight};
 use crate::geometry::polygon::out_of_order;
 use crate::quad_graph::{QuadGraph, curvature};
-use crate::surface::oriented_mesh::Disc;
+use crate::solver::boundary::{self, CircleProblem, FreeProblem, Reduction, Unreduced, circle_map, free_map};
+use crate::solver::{Observer, Phase, StopRule};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Boundary lengths of free maps are kept to ten times the tolerance, and never worse than this.
 const COARSEST_LENGTHS: f64 = 1e-6;
@@ -260,7 +260,7 @@ impl Kind {
 /// Boundary positions that are held, ascending, and where; `None` if a vertex inside is held.
 fn pins(
     options: &MapOptions,
-    disc: &Disc,
+    disc: &OrientedMesh,
     graph: &QuadGraph,
     anchors: &Anchors,
 ) -> Result<Option<Vec<(usize, Complex64)>>, MapError> {

@@ -2,7 +2,7 @@ use super::Mapped;
 use crate::io::Uv;
 use crate::map::periodic::Tiling;
 use crate::surface::Surface;
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// A map as texture coordinates of the surface that it was made from.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl Mapped {
         let (mut coordinates, mut corners) = match &self.torus {
             None if !disc.is_cut() && disc.source_faces() == surface.faces.len() => {
                 let mut coordinates = vec![[0.0; 2]; surface.positions.len()];
-                for (&v, z) in disc.source_vertex.iter().zip(&map.z).filter(|(v, _)| **v != Disc::NEW) {
+                for (&v, z) in disc.source_vertex.iter().zip(&map.z).filter(|(v, _)| **v != OrientedMesh::NEW) {
                     coordinates[v as usize] = [z.re, z.im];
                 }
                 return TextureCoordinates { coordinates, corners: None };
@@ -51,10 +51,10 @@ impl Mapped {
                 (unfolded.coordinates(torus, tiling), unfolded.source_corners(disc, surface))
             }
         };
-        if corners.contains(&Disc::NEW) {
+        if corners.contains(&OrientedMesh::NEW) {
             let nowhere = coordinates.len() as u32;
             coordinates.push([0.0; 2]);
-            corners.iter_mut().filter(|corner| **corner == Disc::NEW).for_each(|corner| *corner = nowhere);
+            corners.iter_mut().filter(|corner| **corner == OrientedMesh::NEW).for_each(|corner| *corner = nowhere);
         }
         TextureCoordinates { coordinates, corners: Some(corners) }
     }

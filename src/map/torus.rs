@@ -1,7 +1,7 @@
 use super::{Domain, Map, MapError, MapOptions};
-use crate::solver::Observer;
 use crate::constraint::Fixed;
 use crate::map::periodic::{PeriodicMap, periodic};
+use crate::solver::Observer;
 
 impl MapOptions {
     /// Fails where something is asked for that periodic maps do not have.

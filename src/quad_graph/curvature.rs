@@ -3,15 +3,15 @@
 use std::f64::consts::{PI, TAU};
 
 use super::QuadGraph;
-use crate::surface::oriented_mesh::Disc;
 use crate::geometry::vector::{cross, dot, norm, scale, sub};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// What the angles of the faces around each vertex of the graph (`nv`) lack of 2π, on the boundary of π; 0 at dual vertices.
 /// The sum is 2π (Gauss and Bonnet).
 ///
 /// A quad's angles are those of its edges in R³, and what they lack of 2π, where it is not flat, is spread over its
 /// corners. With `normals` (`nf × 3`, unit) they are those of the edges projected on the tangent planes.
-pub fn curvature(disc: &Disc, graph: &QuadGraph, normals: Option<&[[f64; 3]]>) -> Vec<f64> {
+pub fn curvature(disc: &OrientedMesh, graph: &QuadGraph, normals: Option<&[[f64; 3]]>) -> Vec<f64> {
     let mut curvature = vec![0.0; graph.vertices];
     curvature[..graph.primal].fill(TAU);
     for &v in graph.boundary.iter().filter(|&&v| !graph.is_dual(v)) {

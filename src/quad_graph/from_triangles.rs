@@ -2,9 +2,9 @@ use num_complex::Complex64;
 
 use super::dual::{BoundaryDual, DualPoint};
 use super::{QuadGraph, QuadGraphError};
-use crate::surface::oriented_mesh::Disc;
-use crate::surface::edges::{Edges, next_in};
 use crate::geometry::vector::{add, cross, dot, norm, scale};
+use crate::surface::edges::{Edges, next_in};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 impl QuadGraph {
     /// The quad graph of a triangle mesh: a dual vertex per face and per boundary edge; each edge vi → vj, with face f
@@ -22,7 +22,7 @@ impl QuadGraph {
     /// # Errors
     /// A triangle without area; a perpendicular that misses its boundary edge.
     pub fn from_triangles(
-        disc: &Disc,
+        disc: &OrientedMesh,
         dual: &dyn DualPoint,
         boundary_dual: BoundaryDual,
     ) -> Result<Self, QuadGraphError> {
@@ -91,7 +91,7 @@ impl QuadGraph {
 }
 
 /// The vertices, the barycentres of the faces, the midpoints of the boundary edges.
-fn places(disc: &Disc) -> Vec<[f64; 3]> {
+fn places(disc: &OrientedMesh) -> Vec<[f64; 3]> {
     let mean = |vertices: &[u32]| {
         let sum = vertices.iter().fold([0.0; 3], |sum, &v| add(sum, disc.positions[v as usize]));
         scale(1.0 / vertices.len() as f64, sum)
@@ -104,7 +104,7 @@ fn places(disc: &Disc) -> Vec<[f64; 3]> {
 }
 
 /// The dual point of each corner's face, seen from the corner's edge: (s, h), in units of the edge.
-pub(super) fn place_dual_points(disc: &Disc, dual: &dyn DualPoint) -> Result<Vec<(f64, f64)>, QuadGraphError> {
+pub(super) fn place_dual_points(disc: &OrientedMesh, dual: &dyn DualPoint) -> Result<Vec<(f64, f64)>, QuadGraphError> {
     let mut placed = Vec::with_capacity(disc.faces.corners().len());
     for (face, polygon) in disc.faces.iter().enumerate() {
         let &[a, b, c] = polygon else { return Err(QuadGraphError::Corners { corners: polygon.len() }) };

@@ -3,9 +3,9 @@
 use super::dual::DualPoint;
 use super::triangles::{RestTriangle, rest_triangles};
 use super::{QuadGraph, QuadGraphError, RestSource, TangentPlanes, difference};
-use crate::surface::oriented_mesh::Disc;
-use crate::surface::edges::Edges;
 use crate::geometry::vector::{cross, norm};
+use crate::surface::edges::Edges;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Lengths and areas at rest, in the unit of the positions.
 ///
@@ -27,7 +27,7 @@ pub struct RestMetric {
 
 impl RestMetric {
     /// The metric of a quad mesh: lengths in R³, or as `planes`, with which the graph was made, say.
-    pub fn of_quads(disc: &Disc, graph: &QuadGraph, planes: Option<&TangentPlanes>) -> Self {
+    pub fn of_quads(disc: &OrientedMesh, graph: &QuadGraph, planes: Option<&TangentPlanes>) -> Self {
         let edges = Edges::new(&disc.faces, disc.positions.len());
         let projected = planes.filter(|planes| planes.rest == RestSource::Projected);
         let folded_area: Vec<f64> = (0..graph.quads.len())
@@ -64,7 +64,7 @@ impl RestMetric {
 
     /// The same with triangles at the corners of quads whose angle is 0 or π, or that have an edge without length.
     #[must_use]
-    pub fn with_open_corners(self, disc: &Disc, planes: Option<&TangentPlanes>) -> Self {
+    pub fn with_open_corners(self, disc: &OrientedMesh, planes: Option<&TangentPlanes>) -> Self {
         match disc.faces.arity() {
             Some(4) => RestMetric { triangles: rest_triangles(disc, planes, true), ..self },
             _ => self,
@@ -75,7 +75,7 @@ impl RestMetric {
     ///
     /// # Errors
     /// Those of [`QuadGraph::from_triangles`].
-    pub fn of_triangles(disc: &Disc, graph: &QuadGraph, dual: &dyn DualPoint) -> Result<Self, QuadGraphError> {
+    pub fn of_triangles(disc: &OrientedMesh, graph: &QuadGraph, dual: &dyn DualPoint) -> Result<Self, QuadGraphError> {
         let placed = super::from_triangles::place_dual_points(disc, dual)?;
         let edges = Edges::new(&disc.faces, disc.positions.len());
         let vertex = disc.faces.corners();

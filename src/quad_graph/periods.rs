@@ -1,8 +1,8 @@
 use num_complex::Complex64;
 
 use super::QuadGraph;
-use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::{Edges, next_in};
+use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::homology::Homology;
 
 /// How the corners of quads and faces lie in the universal cover of a torus: a map with the periods ω1, ω2 has the vertex v
@@ -41,7 +41,12 @@ impl Periods {
     ///
     /// # Errors
     /// [`PeriodsError::OtherMesh`].
-    pub fn new(disc: &Disc, graph: &QuadGraph, edges: &Edges, homology: &Homology) -> Result<Self, PeriodsError> {
+    pub fn new(
+        disc: &OrientedMesh,
+        graph: &QuadGraph,
+        edges: &Edges,
+        homology: &Homology,
+    ) -> Result<Self, PeriodsError> {
         let mut corners = Vec::with_capacity(homology.form.len());
         for f in 0..disc.faces.len() {
             let mut at = [0; 2];
@@ -58,7 +63,7 @@ impl Periods {
         Ok(Periods { quads, ..periods })
     }
 
-    fn of_quads(&self, disc: &Disc, graph: &QuadGraph) -> Result<Vec<[[i32; 2]; 4]>, PeriodsError> {
+    fn of_quads(&self, disc: &OrientedMesh, graph: &QuadGraph) -> Result<Vec<[[i32; 2]; 4]>, PeriodsError> {
         let (offsets, rest) = self.corners.as_chunks();
         let (vertices, _) = disc.faces.corners().as_chunks::<4>();
         let fits = |q: usize| vertices.get(q) == graph.quads.get(q);
@@ -72,7 +77,7 @@ impl Periods {
     /// The quad (vi, c_g, vj, c_f) of the edge of the corner c of f and the corner d of g.
     fn of_triangles(
         &self,
-        disc: &Disc,
+        disc: &OrientedMesh,
         graph: &QuadGraph,
         edges: &Edges,
         homology: &Homology,

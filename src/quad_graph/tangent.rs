@@ -1,8 +1,8 @@
 //! Tangent planes that are given beside the positions: estimated normals of digital surfaces, normals of files.
 
 use super::difference;
-use crate::surface::oriented_mesh::Disc;
 use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// What the rest lengths and areas of a quad mesh with given normals are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -42,7 +42,7 @@ impl TangentPlanes {
     /// [`SMALLEST_COSINE`](Self::SMALLEST_COSINE) with n turned towards m until it has that one.
     ///
     /// m is the direction of d02 × d13, on a surfel its axis. A degenerate face keeps its normal.
-    pub fn guarded(disc: &Disc, mut normals: Vec<[f64; 3]>, rest: RestSource) -> Self {
+    pub fn guarded(disc: &OrientedMesh, mut normals: Vec<[f64; 3]>, rest: RestSource) -> Self {
         let mut tilted = 0;
         for (normal, polygon) in normals.iter_mut().zip(disc.faces.iter()) {
             let Some(own) = own_normal(disc, polygon) else { continue };
@@ -71,7 +71,7 @@ impl TangentPlanes {
 }
 
 /// The unit vector along `d02 × d13`; `None` where there is none.
-pub(crate) fn own_normal(disc: &Disc, polygon: &[u32]) -> Option<[f64; 3]> {
+pub(crate) fn own_normal(disc: &OrientedMesh, polygon: &[u32]) -> Option<[f64; 3]> {
     let &[v0, v1, v2, v3] = polygon else { return None };
     let area = cross(difference(&disc.positions, v0, v2), difference(&disc.positions, v1, v3));
     let length = norm(area);

@@ -3,9 +3,9 @@
 use num_complex::Complex64;
 
 use super::TangentPlanes;
-use crate::surface::Surrogates;
-use crate::surface::oriented_mesh::Disc;
 use crate::geometry::vector::{cross, dot, norm};
+use crate::surface::Surrogates;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// A triangle at rest: a face, or the triangle that a corner of a quad makes with its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ impl RestTriangle {
 ///
 /// A corner of a quad may have no area where the quad has: its angle is 0 or π, or one of its edges has no length. With `opened` it is given
 /// one, as [`Surrogates`] give it to triangles.
-pub(super) fn rest_triangles(disc: &Disc, planes: Option<&TangentPlanes>, opened: bool) -> Vec<RestTriangle> {
+pub(super) fn rest_triangles(disc: &OrientedMesh, planes: Option<&TangentPlanes>, opened: bool) -> Vec<RestTriangle> {
     let mut triangles = Vec::with_capacity(disc.faces.corners().len());
     (0..disc.faces.len()).for_each(|f| triangles.extend(triangles_of_face(disc, planes, opened, f)));
     triangles
@@ -43,7 +43,7 @@ pub(super) fn rest_triangles(disc: &Disc, planes: Option<&TangentPlanes>, opened
 
 /// The triangles of face `f`: itself, or the four corners of a quad; `opened` as with all.
 pub(crate) fn triangles_of_face<'a>(
-    disc: &'a Disc,
+    disc: &'a OrientedMesh,
     planes: Option<&'a TangentPlanes>,
     opened: bool,
     f: usize,

@@ -1,13 +1,13 @@
 //! A surface that can be mapped to the plane in one piece.
 
-use crate::surface::topology::diagnosis::{Diagnosis, Finding};
 use super::edges::next_in;
 use super::{Faces, Surface, Surrogates};
+use crate::surface::topology::diagnosis::{Diagnosis, Finding};
 
 /// One consistently oriented topological disc of triangles or of quads, vertices numbered without gaps; or, from
-/// [`Disc::closed`], a closed surface.
+/// [`OrientedMesh::closed`], a closed surface.
 #[derive(Clone, Debug)]
-pub struct Disc {
+pub struct OrientedMesh {
     /// Vertex positions (`nv × 3`), those in use only.
     pub positions: Vec<[f64; 3]>,
     /// The faces, in the order of the source, all counter-clockwise seen from the same side. The last `filled` ones close
@@ -18,9 +18,9 @@ pub struct Disc {
     /// The boundary loop, with the surface on its left, from the vertex of lowest index. Empty where there is none.
     pub boundary: Vec<u32>,
     /// For each vertex its index in the source, ascending. One on a cut is there several times, one behind the other;
-    /// those put into holes come last and have [`Disc::NEW`].
+    /// those put into holes come last and have [`OrientedMesh::NEW`].
     pub source_vertex: Vec<u32>,
-    /// For each face its index in the source, ascending; those put into holes come last and have [`Disc::NEW`].
+    /// For each face its index in the source, ascending; those put into holes come last and have [`OrientedMesh::NEW`].
     pub source_face: Vec<u32>,
     /// Number of faces that were put into holes. They take part in the map, but not in what is written or measured.
     pub filled: usize,
@@ -41,7 +41,7 @@ fn lines(findings: &[Finding]) -> String {
     lines.join("\n")
 }
 
-impl Disc {
+impl OrientedMesh {
     /// Marks what the source has not: vertices and faces put into holes; and, of corners, what the disc has not.
     pub const NEW: u32 = u32::MAX;
 
@@ -73,7 +73,7 @@ impl Disc {
         let boundary = boundary(surface, diagnosis, &compact);
         let positions = source_vertex.iter().map(|&v| surface.positions[v as usize]).collect();
         let source_face = (0..faces.len() as u32).collect();
-        Ok(Disc {
+        Ok(OrientedMesh {
             positions,
             faces,
             face_normals,
@@ -102,7 +102,7 @@ impl Disc {
         self.source_vertex.windows(2).any(|pair| pair[0] == pair[1] && pair[0] != Self::NEW)
     }
 
-    /// For every corner of `surface`, from which this was made, the vertex there; [`Disc::NEW`] at faces that were removed.
+    /// For every corner of `surface`, from which this was made, the vertex there; [`OrientedMesh::NEW`] at faces that were removed.
     pub fn corner_vertices(&self, surface: &Surface) -> Vec<u32> {
         let mut corners = self.corners_of(surface);
         for c in corners.iter_mut().filter(|c| **c != Self::NEW) {
@@ -112,7 +112,7 @@ impl Disc {
     }
 
     /// For every corner of `surface`, from which this was made, the corner here, a position in the corners of
-    /// [`Disc::faces`]; [`Disc::NEW`] at faces that were removed.
+    /// [`OrientedMesh::faces`]; [`OrientedMesh::NEW`] at faces that were removed.
     pub fn corners_of(&self, surface: &Surface) -> Vec<u32> {
         let mut corners = vec![Self::NEW; surface.faces.corners().len()];
         for (f, &source) in self.source_face.iter().enumerate().take(self.source_faces()) {

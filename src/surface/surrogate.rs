@@ -1,9 +1,9 @@
 //! Shapes at rest for faces that have none.
 
 use super::Faces;
-use crate::surface::topology::{ZERO_AREA, has_no_area};
-use crate::surface::oriented_mesh::Disc;
 use crate::geometry::vector::{cross, dot, norm, scale, sub};
+use crate::surface::oriented_mesh::OrientedMesh;
+use crate::surface::topology::{ZERO_AREA, has_no_area};
 
 /// The faces of a disc that have no area that doubles can tell from zero, and the shapes that they are given at rest.
 ///
@@ -76,7 +76,7 @@ impl Surrogates {
     }
 }
 
-impl Disc {
+impl OrientedMesh {
     /// From corner k of face f to its corner l at rest: what energies and ρ know of the face.
     pub fn spoke(&self, f: usize, k: usize, l: usize) -> [f64; 3] {
         match self.surrogates.of(f) {

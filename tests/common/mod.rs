@@ -4,14 +4,14 @@
 use std::path::PathBuf;
 
 use num_complex::Complex64;
-use riemap::solver::{Iteration, Observer, Phase};
-use riemap::constraint::Fixed;
 use riemap::app::experiment::data_folders;
+use riemap::constraint::Fixed;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint, dual_point};
-use riemap::surface::topology::diagnosis::Diagnosis;
-use riemap::surface::oriented_mesh::Disc;
+use riemap::solver::{Iteration, Observer, Phase};
 use riemap::surface::generate::generate;
+use riemap::surface::oriented_mesh::OrientedMesh;
+use riemap::surface::topology::diagnosis::Diagnosis;
 use riemap::surface::{Faces, Surface};
 
 /// splitmix64: the same numbers everywhere.
@@ -239,19 +239,19 @@ pub fn grown_disc(arity: usize, steps: usize, random: &mut Random) -> Surface {
 
 /// The disc that `s` is.
 #[track_caller]
-pub fn disc(s: &Surface) -> Disc {
-    Disc::new(s, &Diagnosis::new(s)).unwrap_or_else(|error| panic!("{error}"))
+pub fn disc(s: &Surface) -> OrientedMesh {
+    OrientedMesh::new(s, &Diagnosis::new(s)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The generated disc of that name.
 #[track_caller]
-pub fn disc_of(name: &str) -> Disc {
+pub fn disc_of(name: &str) -> OrientedMesh {
     disc(&generate(name).unwrap_or_else(|error| panic!("{error}")).surface)
 }
 
 /// The quad graph of a quad mesh, or of a triangle mesh with the dual point of that name and midpoints.
 #[track_caller]
-pub fn graph_of(disc: &Disc, dual: &str) -> QuadGraph {
+pub fn graph_of(disc: &OrientedMesh, dual: &str) -> QuadGraph {
     let graph = match disc.faces.arity() {
         Some(4) => QuadGraph::from_quads(disc, None),
         _ => QuadGraph::from_triangles(disc, dual_point(dual).expect(dual), BoundaryDual::Midpoint),
@@ -261,7 +261,7 @@ pub fn graph_of(disc: &Disc, dual: &str) -> QuadGraph {
 
 /// Where the vertices of the quad graph of a *planar* triangle mesh lie: the mesh's, the dual points, the duals on
 /// boundary edges.
-pub fn planar_places(disc: &Disc, dual: &dyn DualPoint, boundary_dual: BoundaryDual) -> Vec<Complex64> {
+pub fn planar_places(disc: &OrientedMesh, dual: &dyn DualPoint, boundary_dual: BoundaryDual) -> Vec<Complex64> {
     let mut z: Vec<Complex64> = disc.positions.iter().map(|p| Complex64::new(p[0], p[1])).collect();
     let primal = z.clone();
     let mut dual_of_edge = std::collections::HashMap::new();

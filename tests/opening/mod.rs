@@ -4,11 +4,11 @@
 use super::common::*;
 use riemap::surface::Surface;
 use riemap::surface::cut::{CutError, CutRecord, Opening};
-use riemap::surface::topology::diagnosis::{Diagnosis, Finding};
-use riemap::surface::oriented_mesh::Disc;
 use riemap::surface::edges::Edges;
 use riemap::surface::generate::generate;
+use riemap::surface::oriented_mesh::OrientedMesh;
 use riemap::surface::topology::Topology;
+use riemap::surface::topology::diagnosis::{Diagnosis, Finding};
 
 pub fn generated(name: &str) -> Surface {
     generate(name).unwrap_or_else(|error| panic!("{error}")).surface
@@ -20,8 +20,8 @@ pub fn sum_of_tori(tori: usize) -> Surface {
     (1..tori).fold(torus.clone(), |s, _| connected_sum(&s, s.faces.len() / 2, &torus, 10))
 }
 
-pub fn open(s: &Surface, opening: &Opening) -> Result<(Disc, CutRecord), CutError> {
-    Disc::open(s, &Diagnosis::new(s), opening)
+pub fn open(s: &Surface, opening: &Opening) -> Result<(OrientedMesh, CutRecord), CutError> {
+    OrientedMesh::open(s, &Diagnosis::new(s), opening)
 }
 
 pub fn cutting() -> Opening {
@@ -38,7 +38,7 @@ pub fn removing(faces: &[u32]) -> Opening {
 
 /// The disc that `s` becomes, after everything is checked that holds of all of them.
 #[track_caller]
-pub fn opened(name: &str, s: &Surface, opening: &Opening) -> (Disc, CutRecord) {
+pub fn opened(name: &str, s: &Surface, opening: &Opening) -> (OrientedMesh, CutRecord) {
     let (disc, record) = open(s, opening).unwrap_or_else(|error| panic!("{name}: {error}"));
     let as_surface = Surface { positions: disc.positions.clone(), faces: disc.faces.clone(), face_normals: None };
     let topology = Topology::new(&as_surface);
@@ -69,14 +69,14 @@ pub fn opened(name: &str, s: &Surface, opening: &Opening) -> (Disc, CutRecord) {
 
 /// Copies glued together, the faces are those of the source: same corners, same neighbours but across the cut.
 #[track_caller]
-pub fn is_the_source_again(name: &str, s: &Surface, disc: &Disc, opening: &Opening, record: &CutRecord) {
+pub fn is_the_source_again(name: &str, s: &Surface, disc: &OrientedMesh, opening: &Opening, record: &CutRecord) {
     assert!(disc.source_vertex.is_sorted() && disc.source_face.is_sorted(), "{name}");
     let corners = disc.corner_vertices(s);
     let edges = Edges::new(&s.faces, s.positions.len());
     let mut images = std::collections::HashMap::new();
     for (c, &v) in corners.iter().enumerate() {
         let removed = opening.remove_faces.contains(&edges.face_of_corner[c]);
-        assert_eq!(v == Disc::NEW, removed, "{name}");
+        assert_eq!(v == OrientedMesh::NEW, removed, "{name}");
         if !removed {
             let source = s.faces.corners()[c];
             assert_eq!(disc.source_vertex[v as usize], source, "{name}");
@@ -99,7 +99,7 @@ pub fn is_the_source_again(name: &str, s: &Surface, disc: &Disc, opening: &Openi
         (a.min(b), a.max(b))
     };
     let parted = (0..edges.len()).filter(|&e| match edges.corners(e) {
-        &[c, d] => ends(c) != ends(d) && ends(c).0 != Disc::NEW && ends(d).0 != Disc::NEW,
+        &[c, d] => ends(c) != ends(d) && ends(c).0 != OrientedMesh::NEW && ends(d).0 != OrientedMesh::NEW,
         _ => false,
     });
     let parted = parted.count();
@@ -116,13 +116,13 @@ pub fn file(name: &str) -> Option<Surface> {
 }
 
 /// The faces and positions of a disc.
-pub fn surface_of(disc: &Disc) -> Surface {
+pub fn surface_of(disc: &OrientedMesh) -> Surface {
     Surface { positions: disc.positions.clone(), faces: disc.faces.clone(), face_normals: disc.face_normals.clone() }
 }
 
 /// The diagnosis of a disc or closed surface, which must be sound but for being closed.
 #[track_caller]
-pub fn sound(name: &str, disc: &Disc) -> Diagnosis {
+pub fn sound(name: &str, disc: &OrientedMesh) -> Diagnosis {
     let diagnosis = Diagnosis::new(&surface_of(disc));
     let wrong: Vec<&Finding> = diagnosis.fatal().filter(|f| !matches!(f, Finding::Closed { .. })).collect();
     assert!(wrong.is_empty(), "{name}: {wrong:?}");

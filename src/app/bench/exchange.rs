@@ -6,10 +6,10 @@ use std::path::Path;
 
 use super::BenchError;
 use super::record::Exchange;
-use crate::input::Input;
-use crate::io::{self, Uv};
 use crate::app::measure::median::median;
 use crate::app::measure::stopwatch::cpu_seconds;
+use crate::input::Input;
+use crate::io::{self, Uv};
 use crate::surface::Surface;
 
 /// Processor seconds of reading OBJ, OFF and PLY and of writing OBJ and PLY with texture coordinates, of the mesh `source`; the

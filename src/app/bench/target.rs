@@ -11,7 +11,7 @@ use crate::distortion::{Distortion, Image};
 use crate::input::Input;
 use crate::io;
 use crate::map::{Domain, MapOptions};
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::{Faces, Surface};
 
 /// A disc in a folder.
@@ -33,7 +33,7 @@ impl Target {
     /// Makes or reads `source` and writes the files of it into `folder`.
     pub fn new(source: &str, folder: &Path) -> Result<Target, BenchError> {
         let input = Input::open(source)?;
-        let disc = Disc::new(&input.surface, &input.diagnosis())?;
+        let disc = OrientedMesh::new(&input.surface, &input.diagnosis())?;
         // The disc and no more: each of its vertices on a face, in one orientation.
         let surface = Surface { positions: disc.positions.clone(), faces: disc.faces.clone(), face_normals: None };
         let mesh = folder.join("mesh.obj");

@@ -6,9 +6,9 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 
 use crate::app::bench::{self, Entry, Event, Outcome, Peers, Plan, Record};
+use crate::app::compare::libigl::{Environment, Settings};
 use crate::app::experiment::{data_folders, find_experiments};
 use crate::io::can_be_written;
-use crate::app::compare::libigl::{Environment, Settings};
 
 #[derive(Args)]
 pub struct Arguments {

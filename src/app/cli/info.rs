@@ -3,10 +3,10 @@ use std::io::Write;
 use anyhow::Result;
 use clap::Args;
 
-use crate::surface::topology::diagnosis::Severity;
 use crate::surface::digital::Digital;
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::Component;
+use crate::surface::topology::diagnosis::Severity;
 
 use super::plural;
 use super::source::Source;
@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{label}: {finding}\n  → {}", finding.advice())?;
     }
     if arguments.boundary
-        && let Ok(disc) = Disc::new(&input.surface, &diagnosis)
+        && let Ok(disc) = OrientedMesh::new(&input.surface, &diagnosis)
     {
         let vertices = disc.boundary.iter().map(|&v| disc.source_vertex[v as usize].to_string());
         writeln!(out, "boundary: {}", vertices.collect::<Vec<_>>().join(" "))?;

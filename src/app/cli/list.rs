@@ -2,12 +2,12 @@ use std::io::Write;
 
 use anyhow::Result;
 
-use crate::solver::convex::EDGE_WEIGHTS;
-use crate::solver::{LINEAR_BACKENDS, MINIMISERS, boundary};
 use crate::app::bench::{CASES, CONTESTANTS};
 use crate::constraint::Shape;
 use crate::energy::ENERGIES;
 use crate::quad_graph::dual::DUAL_POINTS;
+use crate::solver::convex::EDGE_WEIGHTS;
+use crate::solver::{LINEAR_BACKENDS, MINIMISERS, boundary};
 use crate::surface::generate::SURFACES;
 use crate::surface::normals::NORMAL_ESTIMATORS;
 

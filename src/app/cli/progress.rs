@@ -1,8 +1,8 @@
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
 
-use crate::solver::{Iteration, Observer, Phase};
 use crate::app::measure::stopwatch::Stopwatch;
+use crate::solver::{Iteration, Observer, Phase};
 
 use super::interrupt;
 

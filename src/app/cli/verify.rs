@@ -3,9 +3,9 @@ use std::io::Write;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use crate::input::Input;
 use crate::app::compare::libigl::{Environment, Settings};
 use crate::app::compare::verify::{Comparison, SURFACES, TOLERANCE, compare, cotan_map};
+use crate::input::Input;
 
 use super::plural;
 use crate::app::measure::stopwatch::Stopwatch;

@@ -4,11 +4,11 @@ pub use crate::geometry::moebius::{Moebius, MoebiusError};
 
 use num_complex::Complex64;
 
-use crate::solver::Observer;
+use crate::app::compare::libigl::{Environment, LibiglError, harmonic, lscm, slim};
 use crate::constraint::{Fixed, spread_points};
 use crate::input::Input;
-use crate::app::compare::libigl::{Environment, LibiglError, harmonic, lscm, slim};
 use crate::map::{Boundary, Domain, Map, MapError, MapOptions, Mapped, run};
+use crate::solver::Observer;
 use crate::surface::cut::Opening;
 
 /// A function of another program.

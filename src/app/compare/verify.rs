@@ -3,12 +3,12 @@
 
 use num_complex::Complex64;
 
-use crate::solver::{Observer, Phase};
 use crate::app::compare::libigl::{Environment, Harmonic, LibiglError, harmonic};
 use crate::map::{Boundary, Domain, Map, MapError, MapOptions};
+use crate::solver::{Observer, Phase};
 use crate::surface::Surface;
+use crate::surface::oriented_mesh::{NotADisc, OrientedMesh};
 use crate::surface::topology::diagnosis::Diagnosis;
-use crate::surface::oriented_mesh::{Disc, NotADisc};
 
 /// The largest difference to libigl, relative to the radius of the disc, that passes.
 pub const TOLERANCE: f64 = 1e-9;
@@ -65,7 +65,7 @@ pub enum VerifyError {
 #[derive(Clone, Debug)]
 pub struct CotanMap {
     /// The mesh.
-    pub disc: Disc,
+    pub disc: OrientedMesh,
     /// Its map; the vertices of the mesh come first.
     pub map: Map,
 }
@@ -76,7 +76,7 @@ pub struct CotanMap {
 /// A surface that is not a disc of triangles; a solver that fails.
 pub fn cotan_map(surface: &Surface, watch: &mut dyn Observer) -> Result<CotanMap, VerifyError> {
     watch.phase(Phase::Assemble);
-    let disc = Disc::new(surface, &Diagnosis::new(surface))?;
+    let disc = OrientedMesh::new(surface, &Diagnosis::new(surface))?;
     if disc.faces.arity() != Some(3) {
         return Err(VerifyError::NotTriangles { corners: disc.faces.arity().unwrap_or(0) });
     }

@@ -5,9 +5,9 @@ use serde_json::json;
 use super::surface::SurfaceSpec;
 use super::{ConfigError, Document, Kind, RunError, Task, Yield};
 use crate::app::compare::libigl::{Environment, Settings};
-use crate::map::{self, Boundary, MapOptions};
-use crate::app::measure::stopwatch::Stopwatch;
 use crate::app::compare::verify::{CotanMap, compare};
+use crate::app::measure::stopwatch::Stopwatch;
+use crate::map::{self, Boundary, MapOptions};
 
 /// System (2) with circumcentres against libigl's harmonic map of the same mesh with the same boundary.
 pub(super) struct CotanKind;

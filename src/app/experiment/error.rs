@@ -3,14 +3,14 @@ use std::path::PathBuf;
 
 use super::DataFile;
 use super::DiagramError;
+use crate::app::compare::libigl::LibiglError;
+use crate::app::compare::peer::{MoebiusError, PeerError};
+use crate::app::compare::verify::VerifyError;
 use crate::figure::FigureError;
 use crate::input::InputError;
 use crate::io::WriteError;
-use crate::app::compare::libigl::LibiglError;
 use crate::map::MapError;
-use crate::app::compare::peer::{MoebiusError, PeerError};
 use crate::surface::normals::NormalError;
-use crate::app::compare::verify::VerifyError;
 
 /// Where in a config, or in which `--set`, something stands.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,13 +5,13 @@ use super::convergence::one_or_more;
 use super::picture::{Checkerboard, checkerboard_pair, flat_map, maps};
 use super::surface::SurfaceSpec;
 use super::{Caption, ConfigError, Convergence, Document, Kind, Mark, Marks, Picture, RunError, Task, Yield, trace};
-use crate::solver::solver_names;
+use crate::app::measure::stopwatch::Stopwatch;
 use crate::figure::Format;
 use crate::input::Input;
 use crate::map::{self, MapOptions, Mapped};
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::report::Report;
-use crate::app::measure::stopwatch::Stopwatch;
+use crate::solver::solver_names;
 
 /// One surface, one map; the result is its [`Report`].
 pub(super) struct MapKind;

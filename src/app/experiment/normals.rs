@@ -4,9 +4,9 @@ use serde_json::json;
 use super::surface::SurfaceSpec;
 use super::{ConfigError, Document, Kind, RunError, Task, Yield};
 use crate::app::measure::stopwatch::Stopwatch;
+use crate::geometry::vector::{cross, dot, norm};
 use crate::surface::edges::Edges;
 use crate::surface::normals::{Facets, NormalSpec};
-use crate::geometry::vector::{cross, dot, norm};
 
 /// Estimated normals of a digitised shape against its exact ones.
 pub(super) struct NormalsKind;

@@ -7,14 +7,14 @@ use serde_json::json;
 use super::map::untimed;
 use super::surface::SurfaceSpec;
 use super::{ConfigError, Document, Kind, RunError, Task, Yield};
+use crate::app::compare::libigl::{Environment, Settings};
+use crate::app::compare::peer::{Moebius, PEERS, peer};
+use crate::app::measure::stopwatch::Stopwatch;
 use crate::constraint::spread_points;
 use crate::energy::conformal::Weight;
-use crate::app::compare::libigl::{Environment, Settings};
 use crate::map::{self, MapError, MapOptions, Mapped};
-use crate::app::compare::peer::{Moebius, PEERS, peer};
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::report::{ErrorRecord, Report};
-use crate::app::measure::stopwatch::Stopwatch;
 
 /// One surface, mapped with a dual point or by a peer, both measured alike.
 pub(super) struct PeerKind;

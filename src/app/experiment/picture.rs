@@ -10,8 +10,8 @@ use crate::input::Input;
 use crate::map::Mapped;
 use crate::map::periodic::{Tiling, checker};
 use crate::surface::Faces;
-use crate::surface::oriented_mesh::Disc;
 use crate::surface::generate::is_generated_name;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// How a checkerboard is drawn on a surface; `figures.checkerboard` of an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -141,7 +141,7 @@ impl ViewParts {
 }
 
 /// The edges of the source along which it was cut: twice on the boundary of the disc.
-fn cut(disc: &Disc) -> Vec<[u32; 2]> {
+fn cut(disc: &OrientedMesh) -> Vec<[u32; 2]> {
     let source = |v: u32| disc.source_vertex[v as usize];
     let next = disc.boundary.iter().cycle().skip(1);
     let edge = |(v, w): (&u32, &u32)| [source(*v).min(source(*w)), source(*v).max(source(*w))];
@@ -149,7 +149,7 @@ fn cut(disc: &Disc) -> Vec<[u32; 2]> {
     edges.sort_unstable();
     edges
         .chunk_by(|a, b| a == b)
-        .filter(|same| same.len() == 2 && same[0][1] != Disc::NEW)
+        .filter(|same| same.len() == 2 && same[0][1] != OrientedMesh::NEW)
         .map(|same| same[0])
         .collect()
 }

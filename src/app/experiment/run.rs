@@ -11,9 +11,9 @@ use serde_json::Value;
 
 use super::repository::revision;
 use super::{Config, Outcome, Picture, Record, ResultsError, Run, RunError, Yield};
+use crate::app::measure::process::{Bounds, End, watch};
 use crate::figure::Format;
 use crate::io::atomically;
-use crate::app::measure::process::{Bounds, End, watch};
 
 /// A run that has ended; nothing is written yet.
 pub(super) struct Ended {

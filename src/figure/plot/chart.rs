@@ -3,15 +3,15 @@ use plotters::drawing::IntoDrawingArea;
 use plotters::series::{DashedLineSeries, LineSeries};
 use plotters::style::{Color, IntoFont, RGBColor, ShapeStyle};
 
+use super::{Panels, Plot};
 use crate::figure::colour::Colour;
 use crate::figure::drawing::Drawing;
-use crate::figure::plot::medians;
 use crate::figure::plot::axis::Ruler;
 use crate::figure::plot::backend::{Sheet, fine, place};
 use crate::figure::plot::layout::Layout;
 use crate::figure::plot::marker::{Marker, some_of};
+use crate::figure::plot::medians;
 use crate::figure::raster::{blank_sheet, encode_png};
-use super::{Panels, Plot};
 use crate::figure::{FigureError, Format, style};
 
 /// Width of the lines between points.

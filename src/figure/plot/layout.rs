@@ -1,11 +1,11 @@
 //! Where the parts of a plot stand on its sheet, and its legend.
 
+use super::Panels;
 use crate::figure::drawing::{Anchor, Drawing};
 use crate::figure::plot::Reference;
 use crate::figure::plot::axis::Ruler;
 use crate::figure::plot::chart::{CURVE, REFERENCE, REFERENCE_COLOUR, TICK};
 use crate::figure::plot::marker::{Marker, RADIUS};
-use super::Panels;
 use crate::figure::{style, text};
 
 /// The plot area within its frame, of a single plot, of two beside each other, of more.

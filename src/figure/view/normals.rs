@@ -1,7 +1,7 @@
 use super::camera::area_vector;
 use super::{Shading, SurfaceView};
-use crate::surface::Faces;
 use crate::geometry::vector::{add, dot, norm, scale, sub};
+use crate::surface::Faces;
 
 /// cos 40°: faces that meet at a sharper angle meet at a crease, and are shaded apart.
 const CREASE: f64 = 0.766;

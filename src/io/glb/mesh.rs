@@ -2,8 +2,8 @@ use std::io::{self, Write};
 use std::ops::RangeInclusive;
 
 use super::{GlbError, Model};
-use crate::surface::Faces;
 use crate::geometry::vector::{dot, sub};
+use crate::surface::Faces;
 
 /// Sizes whose squares, and those of a millionth of them, are floats of 32 bits: viewers compute with these.
 const SIZES: RangeInclusive<f64> = 1e-15..=1e15;

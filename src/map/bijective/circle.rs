@@ -5,11 +5,11 @@ use std::f64::consts::PI;
 use num_complex::Complex64;
 
 use super::{Repair, Stage, middle_of_arc};
-use crate::solver::{Observer, Status};
 use crate::constraint::{Fixed, Freedoms, on_circle, on_circle_apart};
-use crate::map::{Exactly, Map, MapError};
 use crate::geometry::moebius::Moebius;
+use crate::map::{Exactly, Map, MapError};
 use crate::problem::nonlinear::Objective;
+use crate::solver::{Observer, Status};
 
 impl Repair<'_> {
     /// MIPS with the boundary sliding on the circle, from a convex combination map; then again, with the boundary points held that the

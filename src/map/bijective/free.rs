@@ -3,13 +3,13 @@
 use num_complex::Complex64;
 
 use super::{Patience, Repair, Stage};
-use crate::solver::{Observer, Status};
 use crate::constraint::{Fixed, Freedoms};
 use crate::energy::conformal::Weight;
 use crate::energy::{Clearance, Expression, Metric};
 use crate::map::flip_free::{area_at_rest, hold_gauge, image_area};
 use crate::map::{Map, MapError, Valid};
 use crate::problem::nonlinear::Objective;
+use crate::solver::{Observer, Status};
 
 /// Coefficients of L', stage after stage: at first the boundary keeps its lengths, at last it may follow the shapes of the faces.
 const LENGTHS: [f64; 2] = [1.0, 1e-2];

@@ -1,8 +1,8 @@
 //! When a plain map is given up before it has converged.
 
-use crate::solver::{Minimum, Observer, Status, StopRule};
 use crate::map::{Domain, MapError};
 use crate::problem::nonlinear::Objective;
+use crate::solver::{Minimum, Observer, Status, StopRule};
 
 /// Iterations after which one looks.
 const LOOK: usize = 15;

@@ -19,14 +19,14 @@ use num_complex::Complex64;
 
 use super::nonlinear::{self, Anchors};
 use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
-use crate::solver::minimise::Newton;
-use crate::solver::{MinimiseError, Minimiser, Observer, Status, StopRule};
 use crate::constraint::{ConstraintError, Fixed, Freedoms};
 use crate::distortion::{Image, Validity, face_maps};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Mips, Rest};
 use crate::problem::nonlinear::{Objective, Terms};
 use crate::quad_graph::metric::RestMetric;
+use crate::solver::minimise::Newton;
+use crate::solver::{MinimiseError, Minimiser, Observer, Status, StopRule};
 
 /// The name of the backend in reports.
 const BACKEND: &str = "newton (valid)";

@@ -8,7 +8,6 @@ use num_complex::Complex64;
 use super::in_order::put_in_order;
 use super::patch::{FacesAt, Patch};
 use super::{Limits, Stage, accepts, middle_of_arc, minimise};
-use crate::solver::{Observer, Status};
 use crate::constraint::Freedoms;
 use crate::distortion::{Image, face_maps};
 use crate::energy::conformal::{self, Dirichlet, Weight};
@@ -17,6 +16,7 @@ use crate::map::reduced::{circle_energy, length_energy};
 use crate::map::{Boundary, Domain, Exactly, Map, MapError, MapOptions, Outcome, Valid};
 use crate::problem::nonlinear::{Objective, Terms};
 use crate::quad_graph::triangles_of_face;
+use crate::solver::{Observer, Status};
 use crate::surface::UnionFind;
 
 /// The name of the backend in reports.

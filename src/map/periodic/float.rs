@@ -2,9 +2,9 @@
 
 use num_complex::Complex64;
 
-use crate::quad_graph::{Periods, QuadGraph};
-use crate::surface::oriented_mesh::Disc;
 use crate::geometry::vector::{add, cross, dot, scale, sub};
+use crate::quad_graph::{Periods, QuadGraph};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Shifts the vertices that are not connected with vertex 0 by diagonals by the one offset that fits the mesh best.
 ///
@@ -12,7 +12,13 @@ use crate::geometry::vector::{add, cross, dot, scale, sub};
 /// the quad is not planar), so that `(z1 + z3)/2 − (z0 + z2)/2 − s (z2 − z0) − t (z3 − z1)` would be 0; its mean, weighted by area,
 /// is taken out. Parallelograms, such as surfels seen along any direction, have s = t = 0. Triangle meshes: the mean
 /// of dual vertex − barycentre of its face is taken out, weighted by the area of the image.
-pub(super) fn white(disc: &Disc, graph: &QuadGraph, periods: &Periods, omega: [Complex64; 2], z: &mut [Complex64]) {
+pub(super) fn white(
+    disc: &OrientedMesh,
+    graph: &QuadGraph,
+    periods: &Periods,
+    omega: [Complex64; 2],
+    z: &mut [Complex64],
+) {
     let (class, classes) = graph.diagonal_classes();
     if classes < 2 {
         return;
@@ -30,7 +36,7 @@ pub(super) fn white(disc: &Disc, graph: &QuadGraph, periods: &Periods, omega: [C
 }
 
 fn of_quads(
-    disc: &Disc,
+    disc: &OrientedMesh,
     graph: &QuadGraph,
     periods: &Periods,
     omega: [Complex64; 2],
@@ -58,7 +64,7 @@ fn of_quads(
     sum / total
 }
 
-fn of_triangles(disc: &Disc, periods: &Periods, omega: [Complex64; 2], z: &[Complex64]) -> Complex64 {
+fn of_triangles(disc: &OrientedMesh, periods: &Periods, omega: [Complex64; 2], z: &[Complex64]) -> Complex64 {
     let (mut sum, mut total) = (Complex64::ZERO, 0.0);
     for (f, polygon) in disc.faces.iter().enumerate() {
         let &[i, j, k] = polygon else { continue };

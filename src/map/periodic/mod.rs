@@ -22,12 +22,12 @@ pub use unfold::Unfolded;
 
 use num_complex::Complex64;
 
-use crate::solver::Observer;
-use crate::solver::linear::periodic::{Harmonic, HarmonicError, PeriodEnergy};
 use crate::energy::conformal::{self, Weight};
 use crate::quad_graph::{Periods, PeriodsError, QuadGraph};
-use crate::surface::oriented_mesh::Disc;
+use crate::solver::Observer;
+use crate::solver::linear::periodic::{Harmonic, HarmonicError, PeriodEnergy};
 use crate::surface::edges::Edges;
+use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::homology::{Cycle, Homology, HomologyError};
 
 /// A map z of the universal cover with `z(γ1 x) = z(x) + 1`, `z(γ2 x) = z(x) + τ`.
@@ -78,7 +78,7 @@ pub enum PeriodicError {
 /// # Errors
 /// Another surface; integral weights where some Re ρ ≤ 0; a factorisation that breaks down.
 pub fn periodic(
-    disc: &Disc,
+    disc: &OrientedMesh,
     graph: &QuadGraph,
     weight: Weight,
     watch: &mut dyn Observer,
@@ -91,7 +91,7 @@ pub fn periodic(
 /// # Errors
 /// As [`periodic`].
 pub fn periodic_from(
-    disc: &Disc,
+    disc: &OrientedMesh,
     graph: &QuadGraph,
     weight: Weight,
     root: u32,
@@ -137,7 +137,7 @@ impl PeriodicMap {
     }
 
     /// The corner `c` of a face of the mesh, beside that face's first corner.
-    pub fn corner(&self, disc: &Disc, c: usize) -> Complex64 {
+    pub fn corner(&self, disc: &OrientedMesh, c: usize) -> Complex64 {
         self.z[disc.faces.corners()[c] as usize] + Periods::translation(self.periods.corners[c], self.omega())
     }
 }

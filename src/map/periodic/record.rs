@@ -2,7 +2,7 @@ use num_complex::Complex64;
 use serde::Serialize;
 
 use super::{NotReducible, PeriodicMap, Texture, reduce, relative_error, whole};
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// What a report says of a periodic map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,7 +39,7 @@ impl PeriodsRecord {
     ///
     /// # Errors
     /// An exact ratio that is none.
-    pub fn new(disc: &Disc, map: &PeriodicMap, exact: Option<Complex64>) -> Result<Self, NotReducible> {
+    pub fn new(disc: &OrientedMesh, map: &PeriodicMap, exact: Option<Complex64>) -> Result<Self, NotReducible> {
         let pair = |z: Complex64| [z.re, z.im];
         let loops = map
             .loops
@@ -58,6 +58,6 @@ impl PeriodsRecord {
     }
 }
 
-fn in_source(disc: &Disc, vertices: &[u32]) -> Vec<u32> {
-    vertices.iter().map(|&v| disc.source_vertex[v as usize]).filter(|&v| v != Disc::NEW).collect()
+fn in_source(disc: &OrientedMesh, vertices: &[u32]) -> Vec<u32> {
+    vertices.iter().map(|&v| disc.source_vertex[v as usize]).filter(|&v| v != OrientedMesh::NEW).collect()
 }

@@ -7,8 +7,8 @@ use num_complex::Complex64;
 
 use super::{PeriodicMap, Tiling};
 use crate::quad_graph::Periods;
-use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::{Edges, next_in};
+use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::{Faces, Surface};
 
 /// A lift of every face to the plane. The lifts cover the torus once and are connected; neighbours that are not side by
@@ -30,7 +30,7 @@ impl PeriodicMap {
 
     /// Lays the faces out. From the one nearest to the centre of the parallelogram of 1 and τ on, the neighbour that is
     /// nearest to it is put beside those that lie already: what comes out is that parallelogram, but for the faces on its rim.
-    pub fn unfold(&self, disc: &Disc) -> Unfolded {
+    pub fn unfold(&self, disc: &OrientedMesh) -> Unfolded {
         let lifts = self.lifts(disc);
         let vertex = disc.faces.corners();
         // The points of each vertex as a list: its last one, and the one before each.
@@ -60,7 +60,7 @@ impl PeriodicMap {
     }
 
     /// The translation of each face's first corner.
-    fn lifts(&self, disc: &Disc) -> Vec<[i32; 2]> {
+    fn lifts(&self, disc: &OrientedMesh) -> Vec<[i32; 2]> {
         let faces = &disc.faces;
         let edges = Edges::new(faces, disc.positions.len());
         let centres: Vec<[f64; 2]> = (0..faces.len()).map(|f| self.centre(disc, f)).collect();
@@ -99,7 +99,7 @@ impl PeriodicMap {
     }
 
     /// The mean of the corners of a face, beside its first corner, in lattice coordinates.
-    fn centre(&self, disc: &Disc, f: usize) -> [f64; 2] {
+    fn centre(&self, disc: &OrientedMesh, f: usize) -> [f64; 2] {
         let corners = disc.faces.corner_range(f);
         let count = corners.len() as f64;
         let sum: Complex64 = corners.map(|c| self.corner(disc, c)).sum();
@@ -114,7 +114,7 @@ fn plus(a: [i32; 2], b: [i32; 2]) -> [i32; 2] {
 
 impl Unfolded {
     /// For every corner of `surface`, the source of `disc`, its point: what [`Uv::PerCorner`](crate::io::Uv::PerCorner) takes.
-    pub fn source_corners(&self, disc: &Disc, surface: &Surface) -> Vec<u32> {
+    pub fn source_corners(&self, disc: &OrientedMesh, surface: &Surface) -> Vec<u32> {
         let corner = disc.corners_of(surface);
         // A closed surface has all faces of its source.
         corner.iter().map(|&c| self.corners.get(c as usize).copied().unwrap_or(0)).collect()

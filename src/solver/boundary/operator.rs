@@ -5,10 +5,10 @@ use std::cell::RefCell;
 use num_complex::Complex64;
 
 use super::Unreduced;
-use crate::solver::linear::normal::{pattern, real_values};
 use crate::constraint::{Elimination, Fixed};
 use crate::energy::conformal::{Weight, block, weights};
 use crate::quad_graph::QuadGraph;
+use crate::solver::linear::normal::{pattern, real_values};
 use crate::sparse::{Columns2, Pattern, PrunedCholesky};
 
 /// `K = c (shift ahead − shift back)` along the boundary.

@@ -1,6 +1,6 @@
 use super::Weighted;
-use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::Edges;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// To which neighbours weights draw a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub enum Towards {
 /// A deep part of the surface, a finger of length d and girth g, has the size `e^{−2πd/g}` in a harmonic map, and with any weights that
 /// are symmetric or see geometry about that. Here each ring of it is drawn out to the one before. With [`Towards::All`] it still is no
 /// larger than the mean of its neighbours there, of four vertices a ring 0.7 of it; with [`Towards::One`] it shrinks as little as `others` is small.
-pub fn outward(disc: &Disc, towards: Towards, others: f64) -> Vec<Weighted> {
+pub fn outward(disc: &OrientedMesh, towards: Towards, others: f64) -> Vec<Weighted> {
     let edges = Edges::new(&disc.faces, disc.positions.len());
     let depth = depths(disc, &edges);
     let is_nearer = |neighbour: u32, vertex: u32| depth[neighbour as usize] < depth[vertex as usize];
@@ -58,7 +58,7 @@ fn matched(ends: &[[u32; 2]], is_nearer: &dyn Fn(u32, u32) -> bool, vertices: us
 }
 
 /// The least number of edges from each vertex to the boundary.
-fn depths(disc: &Disc, edges: &Edges) -> Vec<u32> {
+fn depths(disc: &OrientedMesh, edges: &Edges) -> Vec<u32> {
     let vertices = disc.positions.len();
     let mut offsets = vec![0u32; vertices + 1];
     for &v in edges.ends.iter().flatten() {

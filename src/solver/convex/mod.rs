@@ -15,7 +15,7 @@ mod weights;
 pub use depth::{Towards, outward};
 pub use solve::{ConvexSolution, convex_map};
 
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// The weight `w_ij` of a vertex's neighbour. Of a pair that occurs several times the weights add up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub struct EdgeWeights {
     /// Whether all weights are positive, so that the map is one-to-one but for rounding.
     pub convex: bool,
     /// The weights of a disc.
-    pub make: fn(&Disc) -> Result<Vec<Weighted>, ConvexError>,
+    pub make: fn(&OrientedMesh) -> Result<Vec<Weighted>, ConvexError>,
 }
 
 /// All weights.

@@ -6,10 +6,10 @@ use nalgebra_sparse::{CooMatrix, CscMatrix};
 use num_complex::Complex64;
 
 use super::{ConvexError, Weighted};
-use crate::solver::{Observer, Phase};
 use crate::constraint::{Elimination, Fixed};
+use crate::solver::{Observer, Phase};
 use crate::sparse::interop::faer_view;
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// A convex combination map.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct ConvexSolution {
 /// # Errors
 /// A boundary vertex that is free; a matrix without inverse, or too large.
 pub fn convex_map(
-    disc: &Disc,
+    disc: &OrientedMesh,
     weights: &[Weighted],
     fixed: &Fixed,
     watch: &mut dyn Observer,

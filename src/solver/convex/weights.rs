@@ -1,19 +1,19 @@
 //! Weights from the shapes of the faces.
 
 use super::{ConvexError, Weighted};
-use crate::surface::oriented_mesh::Disc;
-use crate::surface::edges::Edges;
 use crate::geometry::vector::{cross, dot, norm};
+use crate::surface::edges::Edges;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// 1 along every edge, both ways.
-pub(super) fn uniform(disc: &Disc) -> Result<Vec<Weighted>, ConvexError> {
+pub(super) fn uniform(disc: &OrientedMesh) -> Result<Vec<Weighted>, ConvexError> {
     let edges = Edges::new(&disc.faces, disc.positions.len());
     Ok(edges.ends.iter().flat_map(|&[a, b]| both_ways(a, b, 1.0)).collect())
 }
 
 /// `w_ij = (tan α/2 + tan β/2) / |vi − vj|` with α and β the angles at vi on both sides of the edge (Floater 2003): of any polygons,
 /// and of a flat mesh `Σ w_ij (v_j − v_i) = 0`.
-pub(super) fn mean_value(disc: &Disc) -> Result<Vec<Weighted>, ConvexError> {
+pub(super) fn mean_value(disc: &OrientedMesh) -> Result<Vec<Weighted>, ConvexError> {
     let mut weights = Vec::with_capacity(2 * disc.faces.corners().len());
     for (f, polygon) in disc.faces.iter().enumerate() {
         let n = polygon.len();
@@ -37,7 +37,7 @@ pub(super) fn mean_value(disc: &Disc) -> Result<Vec<Weighted>, ConvexError> {
 }
 
 /// `w_ij = ½ (cot α + cot β)` with α and β the angles opposite the edge.
-pub(super) fn cotan(disc: &Disc) -> Result<Vec<Weighted>, ConvexError> {
+pub(super) fn cotan(disc: &OrientedMesh) -> Result<Vec<Weighted>, ConvexError> {
     let mut weights = Vec::with_capacity(2 * disc.faces.corners().len());
     for (f, polygon) in disc.faces.iter().enumerate() {
         let &[a, b, c] = polygon else { return Err(ConvexError::NotTriangles { corners: polygon.len() }) };

@@ -2,9 +2,9 @@ use num_complex::Complex64;
 
 use super::normal::{assemble, in_real_columns, pattern};
 use super::{LinearBackend, SolveError, Unsuitable};
-use crate::solver::{Observer, Phase};
 use crate::constraint::{Elimination, Fixed};
 use crate::problem::linear::LinearProblem;
+use crate::solver::{Observer, Phase};
 use crate::sparse::Analysis;
 
 /// Where every ρ is real, (2) splits: the black vertices carry a harmonic map of the Laplacian with edge weights ρ (the

@@ -5,9 +5,9 @@ use faer::{Col, ColRef};
 use num_complex::Complex64;
 
 use super::{LinearBackend, SolveError, Unsuitable};
+use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
 use crate::sparse::interop::faer_view;
-use crate::problem::linear::LinearProblem;
 
 /// (2) itself by sparse LU with partial pivoting, where it is square; any sign of Re ρ.
 pub(super) struct Lu;

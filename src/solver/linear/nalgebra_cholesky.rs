@@ -5,9 +5,9 @@ use num_complex::Complex64;
 
 use super::normal::{in_real_columns, pattern, real_normal_equations, real_values, solve_and_refine, usable_weights};
 use super::{LinearBackend, SolveError, Unsuitable};
-use crate::solver::{Observer, Phase};
 use crate::energy::conformal;
 use crate::problem::linear::LinearProblem;
+use crate::solver::{Observer, Phase};
 
 /// The real normal equations by nalgebra-sparse's Cholesky, which has no fill-reducing ordering: a row to compare with.
 pub(super) struct NalgebraCholesky;

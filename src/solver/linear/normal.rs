@@ -6,11 +6,11 @@
 use num_complex::Complex64;
 
 use super::{LinearBackend, SolveError, Unsuitable};
-use crate::solver::{Observer, Phase};
 use crate::constraint::Elimination;
 use crate::energy::conformal::{self, Weight};
 use crate::problem::linear::LinearProblem;
 use crate::quad_graph::QuadGraph;
+use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Pattern, Stencils, pairs_of};
 
 /// The pattern of the normal equations: the free vertices of each quad are coupled.

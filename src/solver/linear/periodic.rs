@@ -2,11 +2,11 @@
 
 use num_complex::Complex64;
 
-use crate::solver::linear::normal::{assemble, in_real_columns, pattern, real_values, solve_and_refine};
-use crate::solver::{Observer, Phase};
 use crate::constraint::{Elimination, Fixed};
 use crate::energy::conformal::{self, NonPositiveRho, Weight};
 use crate::quad_graph::{Periods, QuadGraph};
+use crate::solver::linear::normal::{assemble, in_real_columns, pattern, real_values, solve_and_refine};
+use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Breakdown};
 
 /// The minimiser of H for any two periods is `z = u1 ω1 + u2 ω2`, and `H = ω̄ᵀ P ω`.

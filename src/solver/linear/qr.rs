@@ -5,9 +5,9 @@ use num_complex::Complex64;
 
 use super::normal::usable_weights;
 use super::{LinearBackend, SolveError, Unsuitable};
+use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
 use crate::sparse::interop::faer_view;
-use crate::problem::linear::LinearProblem;
 
 /// `W^½ A Z y = −W^½ A z0` in least squares by sparse QR, which does not square the condition number.
 pub(super) struct Qr;

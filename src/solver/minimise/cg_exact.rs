@@ -2,8 +2,8 @@ use argmin::core::{Error, KV, Problem, Solver};
 
 use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
-use crate::solver::Observer;
 use crate::problem::nonlinear::Objective;
+use crate::solver::Observer;
 
 /// Conjugate gradients whose line search is exact: along a line the energy is a polynomial, whose lowest minimum ahead is
 /// found from its coefficients.

@@ -8,8 +8,8 @@ use argmin::core::{
 };
 
 use super::{MinimiseError, Minimum, Status, StopRule};
-use crate::solver::{Iteration, Observer, Phase};
 use crate::problem::nonlinear::Objective;
+use crate::solver::{Iteration, Observer, Phase};
 
 /// An objective as argmin sees it.
 #[derive(Clone, Copy)]

@@ -8,8 +8,8 @@ use argmin::solver::quasinewton::LBFGS;
 
 use super::executor::{Limits, run};
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
-use crate::solver::Observer;
 use crate::problem::nonlinear::Objective;
+use crate::solver::Observer;
 
 /// Iterations after which a direction is forgotten: without, Fletcher–Reeves jams; much sooner, conjugacy is lost.
 const RESTART: u64 = 1_000;

@@ -6,9 +6,9 @@ use super::cg_exact::step_length;
 use super::executor::{Iterate, Limits, Target, dot, evaluated, run, start_gradient_norm};
 use super::levenberg_marquardt::add_damping;
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
-use crate::solver::{Observer, Phase};
 use crate::energy::Curvature;
 use crate::problem::nonlinear::{HessianAssembly, Objective};
+use crate::solver::{Observer, Phase};
 use crate::sparse::Cholesky;
 
 /// L-BFGS whose first matrix is the Gauss–Newton Hessian at the start, factorised once: an iteration costs one solve.

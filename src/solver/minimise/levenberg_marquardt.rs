@@ -2,9 +2,9 @@ use argmin::core::{Error, KV, Problem, Solver};
 
 use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
-use crate::solver::{Observer, Phase};
 use crate::energy::Curvature;
 use crate::problem::nonlinear::{HessianAssembly, Objective};
+use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Cholesky, Columns};
 
 /// Damped Newton steps `(B + λ M) p = −g` by sparse Cholesky, the pattern analysed once.

@@ -3,9 +3,9 @@ use argmin::core::{Error, KV, Problem, Solver, TerminationReason, TerminationSta
 use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
 use super::levenberg_marquardt::add_damping;
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
-use crate::solver::{Observer, Phase};
 use crate::energy::Curvature;
 use crate::problem::nonlinear::{HessianAssembly, Objective};
+use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Breakdown, Cholesky};
 
 /// Newton's method with backtracking, `∇²E p = −∇E` by sparse Cholesky, the pattern analysed once.

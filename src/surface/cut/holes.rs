@@ -3,10 +3,10 @@
 //! Triangle meshes get a fan around a new vertex in the middle of the hole, quad meshes one of quads, (middle, v0, v1, v2),
 //! (middle, v2, v3, v4) …; a hole of as many edges as the faces have gets one face, and one of two edges is sewn up.
 
+use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 use crate::surface::Faces;
 use crate::surface::cut::{CutError, CutRecord, Sheet};
-use crate::surface::oriented_mesh::Disc;
-use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// A middle point will do where every new face has a sine of at least this between base and spoke, or diagonals.
 const GOOD: f64 = 0.05;
@@ -33,7 +33,7 @@ pub(super) fn fill(sheet: &mut Sheet, loops: &[Vec<u32>], record: &mut CutRecord
 
 fn fill_one(sheet: &mut Sheet, along: &[u32]) -> Result<(), CutError> {
     let vertices: Vec<u32> = along.iter().map(|&c| sheet.corners[c as usize]).collect();
-    let vertex = vertices.iter().map(|&v| sheet.source_vertex[v as usize]).min().unwrap_or(Disc::NEW);
+    let vertex = vertices.iter().map(|&v| sheet.source_vertex[v as usize]).min().unwrap_or(OrientedMesh::NEW);
     let edges = along.len();
     if let &[c, d] = along {
         sheet.twins[c as usize] = d;
@@ -59,7 +59,7 @@ fn fill_one(sheet: &mut Sheet, along: &[u32]) -> Result<(), CutError> {
     }
     let centre = sheet.positions.len() as u32;
     sheet.positions.push(middle);
-    sheet.source_vertex.push(Disc::NEW);
+    sheet.source_vertex.push(OrientedMesh::NEW);
     let base = sheet.corners.len();
     let around = |k: usize| (first + k) % edges;
     let faces = edges / step;
@@ -84,7 +84,7 @@ fn push_face(sheet: &mut Sheet, polygon: impl Iterator<Item = u32>) {
     let base = sheet.corners.len();
     sheet.corners.extend(polygon);
     sheet.twins.resize(sheet.corners.len(), Faces::NO_TWIN);
-    sheet.source_face.push(Disc::NEW);
+    sheet.source_face.push(OrientedMesh::NEW);
     let places: Vec<[f64; 3]> = sheet.corners[base..].iter().map(|&v| sheet.positions[v as usize]).collect();
     if let Some(normals) = &mut sheet.face_normals {
         let normal = spans(&places).2;

@@ -11,10 +11,10 @@ pub use record::CutRecord;
 pub(super) use sheet::Sheet;
 
 use super::Surface;
-use crate::surface::topology::diagnosis::{Diagnosis, Finding};
-use crate::surface::oriented_mesh::{Disc, NotADisc};
 use super::edges::Edges;
 use crate::surface::cut::holes::fill;
+use crate::surface::oriented_mesh::{NotADisc, OrientedMesh};
+use crate::surface::topology::diagnosis::{Diagnosis, Finding};
 use crate::surface::topology::tree_cotree::EdgeGraph;
 
 /// How a surface becomes a disc.
@@ -29,7 +29,7 @@ pub struct Opening {
     pub fill_holes: bool,
 }
 
-impl Disc {
+impl OrientedMesh {
     /// The disc that `surface` becomes: `remove_faces`, then `fill_holes`, then `cut`, as far as they are asked for and
     /// needed.
     ///
@@ -40,7 +40,7 @@ impl Disc {
     pub fn open(surface: &Surface, diagnosis: &Diagnosis, opening: &Opening) -> Result<(Self, CutRecord), CutError> {
         let whole = opening.remove_faces.is_empty();
         if whole && (diagnosis.fatal().next().is_none() || *opening == Opening::default()) {
-            return Ok((Disc::new(surface, diagnosis)?, CutRecord::default()));
+            return Ok((OrientedMesh::new(surface, diagnosis)?, CutRecord::default()));
         }
         refuse(diagnosis, |finding| match finding {
             Finding::Closed { .. } | Finding::NonManifoldVertices { .. } => opening.cut || !whole,
@@ -71,7 +71,7 @@ impl Disc {
         }
     }
 
-    /// The closed surface that `surface` is, or becomes when all of its holes are filled. Its [`Disc::boundary`] is empty,
+    /// The closed surface that `surface` is, or becomes when all of its holes are filled. Its [`OrientedMesh::boundary`] is empty,
     /// and it is of any genus.
     ///
     /// # Errors

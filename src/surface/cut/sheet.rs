@@ -1,9 +1,9 @@
 //! A surface under the knife: corners that know their vertices and their twins, nothing else.
 
-use crate::surface::oriented_mesh::Disc;
-use crate::surface::edges::Edges;
-use crate::surface::topology::Topology;
 use crate::geometry::vector::scale;
+use crate::surface::edges::Edges;
+use crate::surface::oriented_mesh::OrientedMesh;
+use crate::surface::topology::Topology;
 use crate::surface::{Faces, Surface, Surrogates, UnionFind};
 
 /// One connected piece of triangles or of quads, consistently oriented.
@@ -16,9 +16,9 @@ pub(in crate::surface) struct Sheet {
     pub twins: Vec<u32>,
     /// The place of each vertex.
     pub positions: Vec<[f64; 3]>,
-    /// For each vertex its index in the source, ascending; [`Disc::NEW`] last, for vertices that it has not.
+    /// For each vertex its index in the source, ascending; [`OrientedMesh::NEW`] last, for vertices that it has not.
     pub source_vertex: Vec<u32>,
-    /// For each face its index in the source, ascending; [`Disc::NEW`] last.
+    /// For each face its index in the source, ascending; [`OrientedMesh::NEW`] last.
     pub source_face: Vec<u32>,
     /// Unit normals per face, where the source gives them.
     pub face_normals: Option<Vec<[f64; 3]>>,
@@ -193,14 +193,14 @@ impl Sheet {
     }
 
     /// The disc that this is, or the closed surface (without `boundary`).
-    pub fn into_disc(self, boundary: &[u32]) -> Disc {
+    pub fn into_disc(self, boundary: &[u32]) -> OrientedMesh {
         let mut boundary: Vec<u32> = boundary.iter().map(|&c| self.corners[c as usize]).collect();
         let lowest = (0..boundary.len()).min_by_key(|&k| boundary[k]).unwrap_or(0);
         boundary.rotate_left(lowest);
-        Disc {
+        OrientedMesh {
             faces: self.faces(),
             boundary,
-            filled: self.source_face.iter().rev().take_while(|&&f| f == Disc::NEW).count(),
+            filled: self.source_face.iter().rev().take_while(|&&f| f == OrientedMesh::NEW).count(),
             positions: self.positions,
             face_normals: self.face_normals,
             source_vertex: self.source_vertex,

@@ -1,7 +1,7 @@
 use super::whole::on_whole;
 use super::{Facets, NormalError, NormalEstimator, outward, rule};
-use crate::surface::parameters::{Arguments, Parameter};
 use crate::geometry::vector::{add, scale, sub};
+use crate::surface::parameters::{Arguments, Parameter};
 
 /// `u ← u + ⅛ Σ_{g ~ f} (u_g − u_f)`, `steps` times, from u = area · normal; then u/|u|.
 ///

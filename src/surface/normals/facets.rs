@@ -1,8 +1,8 @@
 use super::NormalError;
+use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 use crate::surface::Surface;
 use crate::surface::digital::Digital;
 use crate::surface::edges::Edges;
-use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 
 /// What an estimator may look at: the faces of a consistently oriented surface.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 use super::whole::on_whole;
 use super::{Facets, NormalError, NormalEstimator, outward, rule};
-use crate::surface::parameters::{Arguments, Parameter};
 use crate::geometry::vector::{add, norm, scale, sub};
+use crate::surface::parameters::{Arguments, Parameter};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 

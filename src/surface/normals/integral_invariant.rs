@@ -3,9 +3,9 @@ use nalgebra::Matrix3;
 use super::moments::{Ball, Moments};
 use super::whole::on_whole;
 use super::{Facets, NormalError, NormalEstimator, outward, rule};
+use crate::geometry::vector::{add, dot, scale};
 use crate::surface::digital::Surfel;
 use crate::surface::parameters::{Arguments, Parameter};
-use crate::geometry::vector::{add, dot, scale};
 
 /// The eigenvector of the smallest eigenvalue of the covariance matrix of the voxels in the ball of that radius around the
 /// surfel's centre, on the side away from their mean.

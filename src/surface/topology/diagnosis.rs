@@ -3,8 +3,8 @@
 
 use std::fmt;
 
-use crate::surface::Surface;
 use super::finding;
+use crate::surface::Surface;
 use crate::surface::topology::Topology;
 
 /// What follows from a finding.

@@ -1,9 +1,9 @@
 //! The searches behind [`Diagnosis`](super::diagnosis::Diagnosis), one function per group of findings.
 
 use super::diagnosis::Finding;
-use crate::surface::topology::Topology;
 use crate::geometry::vector;
 use crate::surface::Surface;
+use crate::surface::topology::Topology;
 
 /// Twice a face's area over its longest extent squared, below which doubles cannot tell the area from zero: four
 /// roundings of a product of lengths.

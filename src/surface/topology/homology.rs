@@ -1,10 +1,10 @@
 //! Closed integer 1-forms and loops on closed surfaces of genus 1.
 
-use crate::surface::oriented_mesh::Disc;
-use crate::surface::edges::{Edges, next_in};
-use crate::surface::orientation::same_direction;
 use super::tree_cotree::{EdgeGraph, ShortestPaths, TreeCotree};
 use crate::geometry::vector;
+use crate::surface::edges::{Edges, next_in};
+use crate::surface::orientation::same_direction;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// A basis of the first homology of a closed surface of genus 1, and the dual basis of its cohomology:
 ///
@@ -88,7 +88,7 @@ impl Homology {
     ///
     /// # Errors
     /// A surface that is not closed, connected, oriented, of genus 1.
-    pub fn new(disc: &Disc, edges: &Edges, root: u32) -> Result<Self, HomologyError> {
+    pub fn new(disc: &OrientedMesh, edges: &Edges, root: u32) -> Result<Self, HomologyError> {
         let boundary = (0..edges.len()).filter(|&e| edges.corners(e).len() < 2).count();
         if boundary > 0 {
             return Err(HomologyError::Boundary { edges: boundary });
@@ -134,7 +134,7 @@ impl Homology {
     ///
     /// # Errors
     /// A class so large that the walk would have more than 2²⁸ edges.
-    pub fn cycle(&self, disc: &Disc, class: [i64; 2]) -> Result<Cycle, HomologyError> {
+    pub fn cycle(&self, disc: &OrientedMesh, class: [i64; 2]) -> Result<Cycle, HomologyError> {
         let too_long = || HomologyError::TooLong { class };
         let mut best: Option<(f64, [(usize, i64); 2])> = None;
         for i in 0..self.generators.len() {
@@ -165,7 +165,7 @@ impl Homology {
     }
 
     /// Generators one behind the other, each the given number of times, negative ones backwards.
-    fn concatenated(&self, disc: &Disc, class: [i64; 2], word: [(usize, i64); 2]) -> Cycle {
+    fn concatenated(&self, disc: &OrientedMesh, class: [i64; 2], word: [(usize, i64); 2]) -> Cycle {
         let mut walk: Vec<(u32, u32)> = Vec::new();
         for (k, times) in word {
             let Cycle { vertices, edges, .. } = &self.generators[k];
@@ -189,7 +189,7 @@ impl Homology {
 }
 
 /// A face that runs through an edge in the same direction as its neighbour.
-fn disagreeing(disc: &Disc, edges: &Edges) -> Option<usize> {
+fn disagreeing(disc: &OrientedMesh, edges: &Edges) -> Option<usize> {
     let placed = |c: u32| (edges.face_of_corner[c as usize] as usize, c as usize);
     let edge = (0..edges.len()).find(|&e| match *edges.corners(e) {
         [c, d] => same_direction(&disc.faces, placed(c), placed(d)),
@@ -199,7 +199,7 @@ fn disagreeing(disc: &Disc, edges: &Edges) -> Option<usize> {
 }
 
 /// Twice ∫ α1 ∧ α2, the area of all faces in the plane of (∫α1, ∫α2): 2 or −2.
-fn twice_degree(disc: &Disc, form: &[[i8; 2]]) -> i64 {
+fn twice_degree(disc: &OrientedMesh, form: &[[i8; 2]]) -> i64 {
     let mut twice = 0;
     for face in 0..disc.faces.len() {
         let mut at = [0i64; 2];

@@ -5,16 +5,16 @@ use anyhow::{Result, bail};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use crate::solver::convex::EDGE_WEIGHTS;
-use crate::solver::solver_names;
 use crate::constraint::Shape;
 use crate::energy::Expression;
 use crate::energy::conformal::Weight;
 use crate::io::{is_glb, read_boundary_lengths, read_positions};
-use crate::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource, Start, Valid};
 use crate::map::periodic::Tiling;
+use crate::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource, Start, Valid};
 use crate::quad_graph::RestSource;
 use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
+use crate::solver::convex::EDGE_WEIGHTS;
+use crate::solver::solver_names;
 
 use crate::surface::normals::NormalSpec;
 

@@ -9,11 +9,11 @@ use std::io::Write;
 
 use anyhow::{Context, Result, bail};
 
-use crate::solver::Status;
-use crate::map::{self, Outcome};
-use crate::map::periodic::Tiling;
-use crate::report::Report;
 use crate::app::measure::stopwatch::Stopwatch;
+use crate::map::periodic::Tiling;
+use crate::map::{self, Outcome};
+use crate::report::Report;
+use crate::solver::Status;
 
 use super::progress::Progress;
 pub use arguments::Arguments;

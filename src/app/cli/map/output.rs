@@ -3,16 +3,16 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 
-use crate::solver::Iteration;
 use crate::app::experiment::{Checkerboard, checkerboard, flat_map, stage_model};
+use crate::app::measure::stopwatch::Traced;
 use crate::figure::Format;
 use crate::input::Input;
 use crate::io::{Staged, can_be_written, is_glb, stage, stage_mesh, writable, write_matrix_market};
 use crate::map::{Domain, Map, Mapped, TextureCoordinates};
 use crate::problem::linear::system;
 use crate::report::Report;
-use crate::app::measure::stopwatch::Traced;
-use crate::surface::oriented_mesh::Disc;
+use crate::solver::Iteration;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 use super::arguments::Arguments;
 use super::validity::{faults, of_written};
@@ -109,7 +109,7 @@ fn warn_of_written(path: &Path, input: &Input, mapped: &Mapped, texture: &Textur
 }
 
 /// What the rows and columns are, and the constraints that make the solution unique.
-fn system_comments(record: &Report, disc: &Disc, map: &Map) -> Vec<String> {
+fn system_comments(record: &Report, disc: &OrientedMesh, map: &Map) -> Vec<String> {
     let mut comments = vec![
         format!(
             "system (2) of {}: z3 - z1 - i rho (z2 - z0) = 0, one row per quad, one column per vertex",

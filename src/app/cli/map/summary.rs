@@ -2,10 +2,10 @@ use std::io::Write;
 
 use anyhow::Result;
 
-use crate::solver::Status;
 use crate::io::LengthUnit;
 use crate::map::{Boundary, MapOptions, Mapped, Outcome, Valid};
 use crate::report::{EnergyRecord, Report};
+use crate::solver::Status;
 
 use super::validity::faults;
 use crate::app::cli::plural;

@@ -2,7 +2,7 @@ use num_complex::Complex64;
 
 use crate::distortion::{Distortion, Validity};
 use crate::surface::Surface;
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 use crate::app::cli::plural;
 
@@ -12,7 +12,7 @@ const NAMED: usize = 5;
 /// What keeps a map from being one-to-one, a sentence each.
 pub(super) fn faults(validity: &Validity, distortion: &Distortion) -> Vec<String> {
     let mut faults = Vec::new();
-    let filled = validity.folded.iter().filter(|&&f| f == Disc::NEW).count();
+    let filled = validity.folded.iter().filter(|&&f| f == OrientedMesh::NEW).count();
     let folded = &validity.folded[..validity.folded.len() - filled];
     if !folded.is_empty() {
         let how = match (distortion.flipped, distortion.not_convex.saturating_sub(distortion.flipped)) {
@@ -52,7 +52,7 @@ fn named(one: &str, many: &str, of: &[u32]) -> String {
 }
 
 /// The check of what a file has, `pairs` for every corner of `surface`: coordinates of a map that were rounded, or moved.
-pub(super) fn of_written(disc: &Disc, surface: &Surface, pairs: &[[f64; 2]]) -> Validity {
+pub(super) fn of_written(disc: &OrientedMesh, surface: &Surface, pairs: &[[f64; 2]]) -> Validity {
     let mut at = vec![Complex64::ZERO; disc.faces.corners().len()];
     for (&corner, &[x, y]) in disc.corners_of(surface).iter().zip(pairs) {
         if let Some(at) = at.get_mut(corner as usize) {

@@ -7,11 +7,11 @@ use serde_json::json;
 use super::{BLUE, DiagramError, Drawn, GREY, INK, PALE_BLUE, Point, Subject, VERMILION, arc, closed, label, line};
 use crate::app::experiment::RunError;
 use crate::figure::{Diagram, Form, Item, Panel};
+use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::map::{Domain, MapOptions};
 use crate::quad_graph::dual::{Circumcentre, DualPoint};
-use crate::surface::oriented_mesh::Disc;
 use crate::surface::edges::{Edges, next_in};
-use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::surface::oriented_mesh::OrientedMesh;
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
     let input = subject.input;
@@ -19,7 +19,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
         let source_name = input.source.clone();
         return Err(DiagramError::Surface { diagram: "cotan", wanted: "triangles", source_name }.into());
     }
-    let disc = Disc::new(&input.surface, &input.diagnosis()).map_err(DiagramError::from)?;
+    let disc = OrientedMesh::new(&input.surface, &input.diagnosis()).map_err(DiagramError::from)?;
     let edges = Edges::new(&disc.faces, disc.positions.len());
     let (face, corner) = (subject.face, subject.corner);
     let no_edge = || DiagramError::Edge { face, corner };
@@ -51,7 +51,7 @@ struct Side {
 }
 
 impl Side {
-    fn of(disc: &Disc, face: usize, corner: usize) -> Side {
+    fn of(disc: &OrientedMesh, face: usize, corner: usize) -> Side {
         let corners = disc.faces.corners();
         let after = next_in(&disc.faces, face, corner);
         let last = next_in(&disc.faces, face, after);

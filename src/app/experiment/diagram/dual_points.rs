@@ -10,7 +10,7 @@ use crate::figure::{Colour, Diagram, Form, Item, Panel};
 use crate::map::{Domain, MapOptions};
 use crate::quad_graph::QuadGraph;
 use crate::quad_graph::dual::DUAL_POINTS;
-use crate::surface::oriented_mesh::Disc;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
     let input = subject.input;
@@ -24,7 +24,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
         }
         .into());
     }
-    let disc = Disc::new(&input.surface, &input.diagnosis()).map_err(DiagramError::from)?;
+    let disc = OrientedMesh::new(&input.surface, &input.diagnosis()).map_err(DiagramError::from)?;
     let corners = [0, 1, 2].map(|k| plane(&disc, disc.faces.get(subject.face)[k]));
     let mut panels = vec![Panel { title: "one triangle".to_owned(), items: triangle(corners) }];
     let mut numbers = Map::new();
@@ -44,7 +44,7 @@ fn looks() -> impl Iterator<Item = (Form, Colour)> {
     [(Form::Square, ORANGE), (Form::Disc, BLUE), (Form::Triangle, GREEN)].into_iter().cycle()
 }
 
-fn plane(disc: &Disc, v: u32) -> Point {
+fn plane(disc: &OrientedMesh, v: u32) -> Point {
     let [x, y, _] = disc.positions[v as usize];
     [x, y]
 }
@@ -67,7 +67,7 @@ fn dual_place(corners: [Point; 3], name: &str) -> Point {
 }
 
 /// Where all vertices of a quad graph are: those of the mesh, the dual points of its faces, the midpoints of its boundary.
-fn places(disc: &Disc, graph: &QuadGraph, name: &str) -> Vec<Point> {
+fn places(disc: &OrientedMesh, graph: &QuadGraph, name: &str) -> Vec<Point> {
     let mut places: Vec<Point> = (0..graph.primal as u32).map(|v| plane(disc, v)).collect();
     places.extend(disc.faces.iter().map(|face| dual_place([0, 1, 2].map(|k| plane(disc, face[k])), name)));
     let next = disc.boundary.iter().cycle().skip(1);
@@ -110,7 +110,7 @@ fn triangle(corners: [Point; 3]) -> Vec<Item> {
 }
 
 /// A triangle mesh, grey, under the quads of its quad graph.
-fn quads(disc: &Disc, graph: &QuadGraph, places: &[Point], (form, colour): (Form, Colour)) -> Vec<Item> {
+fn quads(disc: &OrientedMesh, graph: &QuadGraph, places: &[Point], (form, colour): (Form, Colour)) -> Vec<Item> {
     let at = |v: u32| places[v as usize];
     let mut items: Vec<Item> =
         disc.faces.iter().map(|face| line(closed(face.iter().map(|v| at(*v)).collect()), GREY, 2.0)).collect();

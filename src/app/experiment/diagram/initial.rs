@@ -4,10 +4,10 @@ use num_complex::Complex64;
 use serde_json::json;
 
 use super::{Drawn, GREY, INK, Point, Subject, VERMILION, closed, label, line};
-use crate::solver::Silent;
 use crate::app::experiment::RunError;
 use crate::figure::{Colour, Diagram, Form, Item, Panel};
 use crate::map::{self, MapOptions, Mapped, Valid};
+use crate::solver::Silent;
 use crate::surface::edges::Edges;
 
 /// Numbers of fixed points.

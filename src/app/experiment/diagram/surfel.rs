@@ -9,11 +9,11 @@ use super::{
 };
 use crate::app::experiment::RunError;
 use crate::figure::{Colour, Diagram, Form, Item, Panel};
+use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 use crate::quad_graph::rho::with_normal;
 use crate::surface::Surface;
 use crate::surface::edges::Edges;
 use crate::surface::normals::Facets;
-use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 
 /// Surfels drawn around the one: up to this distance, in voxels.
 const NEAR: f64 = 3.3;

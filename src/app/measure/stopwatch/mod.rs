@@ -4,8 +4,8 @@ mod process;
 
 use std::time::Instant;
 
-use crate::solver::{Iteration, Observer, Phase};
 use crate::report::{Cost, Seconds};
+use crate::solver::{Iteration, Observer, Phase};
 
 pub use process::{children_cpu_seconds, cpu_seconds, peak_bytes, peak_bytes_of};
 

@@ -1,7 +1,7 @@
 use super::{Frame, closed};
+use crate::geometry::vector::{norm, scale};
 use crate::surface::digital::Implicit;
 use crate::surface::generate::{Form, Parameter, Row};
-use crate::geometry::vector::{norm, scale};
 
 /// √(x² + y² + z²) ≤ R. Rays from the centre cross the boundary once: an inner voxel at v with an outer one at v + n has
 /// n · (v + n/2) = (|v + n|² − |v|²)/2 > 0.

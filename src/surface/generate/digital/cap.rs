@@ -1,8 +1,8 @@
 use super::Frame;
 use super::ball::Ball;
+use crate::geometry::vector::norm;
 use crate::surface::digital::{Adjacency, Solid, Surfel, digitise, exact_normals, part};
 use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, Row};
-use crate::geometry::vector::norm;
 
 /// The part of a digitised ball's boundary above a plane between two layers of voxels: an open disc, as each ray from the
 /// centre crosses the boundary once. The flat bottom is no part of it.

@@ -1,7 +1,7 @@
 use super::{Frame, closed};
+use crate::geometry::vector::norm;
 use crate::surface::digital::Implicit;
 use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, Row};
-use crate::geometry::vector::norm;
 
 /// √((x/a)² + (y/b)² + (z/c)²) ≤ 1.
 pub(in super::super) const ELLIPSOID: Row = Row {

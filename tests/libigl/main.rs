@@ -1,0 +1,7 @@
+//! Comparisons with libigl, live.
+
+#![allow(clippy::unwrap_used)]
+
+mod libigl_environment;
+mod live;
+mod peers;
