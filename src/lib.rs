@@ -69,10 +69,12 @@
 //! The printed H has no i before ρ, A's first term lost a conjugate, and the cotangents a factor ½; here they are as they
 //! must be.
 
+#[cfg(feature = "cli")]
 pub mod app;
 pub mod constraint;
 pub mod distortion;
 pub mod energy;
+#[cfg(feature = "figure")]
 pub mod figure;
 pub mod geometry;
 pub mod input;

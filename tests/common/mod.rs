@@ -4,7 +4,6 @@
 use std::path::PathBuf;
 
 use num_complex::Complex64;
-use riemap::app::experiment::data_folders;
 use riemap::constraint::Fixed;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint, dual_point};
@@ -327,7 +326,10 @@ pub fn fitted_order(n: &[f64], error: &[f64]) -> f64 {
 
 /// The folder of public meshes, where there is one.
 pub fn data_folder() -> Option<PathBuf> {
-    data_folders(std::env::var_os("RIEMAP_DATA")).into_iter().find(|folder| folder.join("tri").is_dir())
+    let named = std::env::var_os("RIEMAP_DATA").filter(|name| !name.is_empty()).map(PathBuf::from);
+    let beside = ["../shared/data", "data"].map(|folder| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(folder));
+    let folders = named.map_or(beside.to_vec(), |folder| vec![folder]);
+    folders.into_iter().find(|folder| folder.join("tri").is_dir())
 }
 
 /// Every mesh with every dual point it has.
