@@ -79,6 +79,7 @@ pub mod figure;
 pub mod geometry;
 pub mod input;
 pub mod io;
+pub mod laplacian;
 pub mod map;
 pub mod problem;
 pub mod quad_graph;

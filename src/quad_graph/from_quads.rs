@@ -1,5 +1,5 @@
 use super::rho::{extrinsic, with_normal};
-use super::{QuadGraph, QuadGraphError, TangentPlanes, difference};
+use super::{QuadGraph, QuadGraphError, TangentPlanes, difference, one_loop};
 use crate::geometry::vector::norm;
 use crate::surface::edges::{Edges, next_in};
 use crate::surface::oriented_mesh::OrientedMesh;
@@ -18,6 +18,7 @@ impl QuadGraph {
             diagonal: Vec::with_capacity(disc.faces.len()),
             tilted: planes.map_or(0, |planes| planes.tilted),
             boundary: disc.boundary.clone(),
+            loops: one_loop(disc.boundary.len()),
             boundary_length: Vec::new(),
             places: disc.positions.clone(),
         };

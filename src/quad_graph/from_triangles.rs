@@ -1,7 +1,7 @@
 use num_complex::Complex64;
 
 use super::dual::{BoundaryDual, DualPoint};
-use super::{QuadGraph, QuadGraphError};
+use super::{QuadGraph, QuadGraphError, one_loop};
 use crate::geometry::vector::{add, cross, dot, norm, scale};
 use crate::surface::edges::{Edges, next_in};
 use crate::surface::oriented_mesh::OrientedMesh;
@@ -48,6 +48,7 @@ impl QuadGraph {
             diagonal: Vec::with_capacity(edges.len()),
             tilted: 0,
             boundary: Vec::with_capacity(2 * loop_length),
+            loops: one_loop(2 * loop_length),
             boundary_length: vec![0.0; 2 * loop_length],
             places: places(disc),
         };

@@ -17,6 +17,8 @@ pub use tangent::{RestSource, TangentPlanes};
 pub use triangles::RestTriangle;
 pub(crate) use triangles::triangles_of_face;
 
+use std::ops::Range;
+
 use num_complex::Complex64;
 
 use crate::geometry::vector;
@@ -38,8 +40,10 @@ pub struct QuadGraph {
     pub diagonal: Vec<f64>,
     /// Quads whose given normal was tilted to keep ρ away from 0 and ∞; see [`TangentPlanes::guarded`].
     pub tilted: usize,
-    /// The boundary loop, surface on its left (`nb`).
+    /// The boundary loops one behind the other, each with the surface on its left (`nb`).
     pub boundary: Vec<u32>,
+    /// The positions in `boundary` of every loop, the outer one first: one for a disc, none for a closed surface.
+    pub loops: Vec<Range<usize>>,
     /// Rest length of the edge from each boundary vertex to the next (`nb`).
     pub boundary_length: Vec<f64>,
     /// About where each vertex is in space (`nv × 3`): tells how to number unknowns, and has no part in any map.
@@ -183,4 +187,9 @@ impl Incidence {
 /// x_b − x_a
 fn difference(positions: &[[f64; 3]], a: u32, b: u32) -> [f64; 3] {
     vector::sub(positions[b as usize], positions[a as usize])
+}
+
+/// The one loop of a boundary of `n` vertices; none where there is no boundary.
+fn one_loop(n: usize) -> Vec<Range<usize>> {
+    std::iter::once(0..n).filter(|whole| !whole.is_empty()).collect()
 }

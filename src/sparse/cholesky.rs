@@ -19,6 +19,9 @@ pub enum Breakdown {
     /// A pivot is not positive.
     #[error("the matrix is not positive definite to rounding")]
     NotPositiveDefinite,
+    /// A pivot is 0 or not finite.
+    #[error("the matrix is singular to rounding")]
+    Singular,
     /// Out of memory or of indices.
     #[error("the factor does not fit into memory or its indices")]
     TooLarge,

@@ -7,9 +7,11 @@ mod panel;
 mod pattern;
 mod pruned;
 mod separator;
+mod symmetric;
 
 pub use cholesky::{Analysis, Breakdown, Cholesky, Order};
 pub use dissection::dissect;
 pub(crate) use pattern::pairs_of;
 pub use pattern::{Columns, Pattern, Stencils};
 pub use pruned::{Columns2, PrunedCholesky};
+pub use symmetric::SymmetricFactor;

@@ -11,6 +11,7 @@ mod convex;
 mod dissection;
 mod energies;
 mod identities;
+mod laplacian;
 mod minimisers;
 mod reduced;
 mod starts;

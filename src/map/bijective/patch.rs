@@ -161,6 +161,8 @@ impl Patch {
             diagonal: quads.iter().map(|&q| whole.diagonal[q as usize]).collect(),
             tilted: 0,
             boundary,
+            // The patch is not mapped by its boundary: nothing asks for its loops.
+            loops: Vec::new(),
             boundary_length,
             places: Vec::new(),
         };

@@ -181,6 +181,7 @@ impl SolveError {
         let (backend, size) = (backend.name(), problem.elimination.unknowns());
         match reason {
             Breakdown::NotPositiveDefinite => SolveError::NotPositiveDefinite { backend, size },
+            Breakdown::Singular => SolveError::Singular { backend, size },
             Breakdown::TooLarge => SolveError::TooLarge { backend, size },
         }
     }

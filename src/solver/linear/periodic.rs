@@ -124,7 +124,7 @@ impl Harmonic {
             Weight::Unit => (hermitian(graph, periods, &weights, &elimination, watch), "cholesky"),
         };
         let u = u.map_err(|breakdown| match breakdown {
-            Breakdown::NotPositiveDefinite => HarmonicError::NotPositiveDefinite { size },
+            Breakdown::NotPositiveDefinite | Breakdown::Singular => HarmonicError::NotPositiveDefinite { size },
             Breakdown::TooLarge => HarmonicError::TooLarge { size },
         })?;
         let mut residual = 0.0;

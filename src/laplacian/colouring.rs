@@ -1,0 +1,65 @@
+//! Black and white vertices, and the quads seen from their black diagonals.
+
+use num_complex::Complex64;
+
+use super::LaplacianError;
+use crate::quad_graph::QuadGraph;
+
+/// Which vertices are black.
+///
+/// Every edge of a quad graph joins a black vertex and a white one. Black are the vertices of a triangle mesh; on a quad
+/// mesh, the class of the first boundary vertex (of vertex 0, where there is no boundary).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Colouring {
+    is_black: Vec<bool>,
+}
+
+/// A quad with its black diagonal first: `z_f − z_g = iρ (z_j − z_i)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlackQuad {
+    /// The ends i, j of the black diagonal.
+    pub black: [u32; 2],
+    /// The white vertices g, f: f lies on the left of the diagonal from i to j.
+    pub white: [u32; 2],
+    /// ρ seen from the black diagonal.
+    pub rho: Complex64,
+}
+
+impl Colouring {
+    /// Colours the vertices of `graph`.
+    ///
+    /// # Errors
+    /// [`LaplacianError::NotTwoColoured`].
+    pub fn new(graph: &QuadGraph) -> Result<Self, LaplacianError> {
+        if graph.primal < graph.vertices {
+            return Ok(Colouring { is_black: (0..graph.vertices).map(|v| v < graph.primal).collect() });
+        }
+        let (class, classes) = graph.diagonal_classes();
+        if classes != 2 {
+            return Err(LaplacianError::NotTwoColoured { classes });
+        }
+        let first = graph.boundary.first().map_or(0, |&v| v as usize);
+        Ok(Colouring { is_black: class.iter().map(|&k| k == class[first]).collect() })
+    }
+
+    /// Whether vertex `v` is black.
+    pub fn is_black(&self, v: u32) -> bool {
+        self.is_black[v as usize]
+    }
+
+    /// Quad `q` of `graph`, from its black diagonal. Across a quad whose first vertex is white ρ is the inverse of the
+    /// quad's own.
+    pub fn quad(&self, graph: &QuadGraph, q: usize) -> BlackQuad {
+        let [v0, v1, v2, v3] = graph.quads[q];
+        let rho = graph.rho[q];
+        match self.is_black(v0) {
+            true => BlackQuad { black: [v0, v2], white: [v1, v3], rho },
+            false => BlackQuad { black: [v1, v3], white: [v2, v0], rho: rho.inv() },
+        }
+    }
+
+    /// All quads of `graph`, from their black diagonals.
+    pub fn quads(&self, graph: &QuadGraph) -> impl Iterator<Item = BlackQuad> {
+        (0..graph.quads.len()).map(|q| self.quad(graph, q))
+    }
+}

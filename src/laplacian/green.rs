@@ -1,0 +1,52 @@
+//! The complex Green's function of an inner black vertex.
+
+use num_complex::Complex64;
+
+use super::ConformalLaplacian;
+use super::extension::black_neighbours;
+use crate::quad_graph::QuadGraph;
+
+/// The Green's function G of an inner black vertex: `L G = 1` there and 0 at the other inner black vertices, G = 0 on the
+/// boundary.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Green {
+    /// The inner black vertex, as many black diagonals away from the boundary as any.
+    pub pole: u32,
+    /// `−L_BI L_II⁻¹ e` (n), the flux through the black boundary vertices. Its sum is 1.
+    pub flux: Vec<Complex64>,
+}
+
+impl ConformalLaplacian {
+    /// The Green's function of an inner black vertex far from the boundary; `None` where there is no such vertex, or
+    /// no boundary.
+    pub fn green(&self, graph: &QuadGraph, work: &mut super::Work) -> Option<Green> {
+        let pole = self.far_inside(graph)?;
+        let mut y = work.take();
+        y[self.inner_index(pole)?] = Complex64::ONE;
+        self.factor.solve(&mut y, work);
+        let mut flux = vec![Complex64::ZERO; self.len()];
+        self.rows.subtract_outward(&y, &mut flux);
+        work.give_back(y);
+        Some(Green { pole, flux })
+    }
+
+    /// The last inner black vertex that a search reaches from the boundary, breadth first.
+    fn far_inside(&self, graph: &QuadGraph) -> Option<u32> {
+        let around = black_neighbours(graph, &self.colouring);
+        let mut reached = vec![false; graph.vertices];
+        let mut queue = self.loops.black.clone();
+        queue.iter().for_each(|&v| reached[v as usize] = true);
+        let mut head = 0;
+        while head < queue.len() {
+            for &q in around.of(queue[head]) {
+                for v in self.colouring.quad(graph, q as usize).black {
+                    if !std::mem::replace(&mut reached[v as usize], true) {
+                        queue.push(v);
+                    }
+                }
+            }
+            head += 1;
+        }
+        queue.last().copied().filter(|&v| self.inner_index(v).is_some() && !self.is_empty())
+    }
+}

@@ -1,0 +1,210 @@
+//! The conformal Laplacian: one complex symmetric matrix on the black vertices of a quad graph.
+//!
+//! Write every quad as `(v_i, g, v_j, f)`, the ends of its black diagonal `v_i v_j` and the white vertices, f on the left.
+//! (2) reads `z_f − z_g = iρ (z_j − z_i)`. Around an inner black vertex the left sides cancel, and
+//!
+//! ```text
+//! (L z)_i = Σ_j ρ_ij (z_i − z_j) = 0
+//! ```
+//!
+//! L is complex *symmetric*, and Re L is positive semidefinite where Re ρ > 0. White values follow by adding up (2) from
+//! quad to quad; no equation is left over. So the maps with H = 0 are given by the black boundary values b and one number w_0.
+//! With `T = L_BB − L_BI L_II⁻¹ L_IB` the white boundary vertices, w_k between b_k and b_{k+1} with the surface on the left, obey
+//!
+//! ```text
+//! w_k − w_{k−1} = i (T b)_k
+//! ```
+
+mod colouring;
+mod extension;
+mod factor;
+mod green;
+mod loops;
+mod matrix;
+mod rows;
+
+pub use colouring::{BlackQuad, Colouring};
+pub use factor::Work;
+pub use green::Green;
+
+use std::ops::Range;
+
+use num_complex::Complex64;
+
+use crate::quad_graph::QuadGraph;
+use crate::sparse::Breakdown;
+use factor::Factor;
+use loops::Loops;
+use matrix::{Numbering, inner_matrix};
+use rows::BoundaryRows;
+
+/// There is no conformal Laplacian, or no factor of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LaplacianError {
+    /// The edges of the quads do not alternate between two classes of vertices.
+    #[error(
+        "the vertices of the quads cannot be coloured black and white ({classes} classes instead of 2): some loop has an \
+         odd number of edges; split the quads into triangles"
+    )]
+    NotTwoColoured {
+        /// Classes of vertices that diagonals connect.
+        classes: usize,
+    },
+    /// Black and white do not alternate along a boundary loop.
+    #[error("black and white vertices do not alternate along boundary loop {boundary}")]
+    NotAlternating {
+        /// The loop.
+        boundary: usize,
+    },
+    /// L_II has no factor.
+    #[error("the conformal Laplacian of {unknowns} vertices cannot be factorised: {reason}")]
+    Factorisation {
+        /// Inner black vertices.
+        unknowns: usize,
+        /// Why.
+        reason: Breakdown,
+    },
+}
+
+/// The conformal Laplacian L of a quad graph, with a factor of `L_II`.
+///
+/// I are the inner black vertices, B the black boundary vertices. On a closed surface B is empty, and one black vertex is
+/// *held*: it is not in I, and its value is 0 in solves.
+///
+/// Boundary positions count the black boundary vertices loop by loop, n in all, in the order of
+/// [`QuadGraph::boundary`]. The white boundary vertex of position k follows the black one along its loop.
+#[derive(Debug)]
+pub struct ConformalLaplacian {
+    colouring: Colouring,
+    numbering: Numbering,
+    loops: Loops,
+    rows: BoundaryRows,
+    factor: Factor,
+    /// For every loop but the first, c (n) with `w_k − w_l = c·b`, k the first position of the loop, l that of the first loop.
+    shifts: Vec<Vec<Complex64>>,
+}
+
+impl ConformalLaplacian {
+    /// Assembles L and factorises L_II. `factoring` is called when the factorisation begins.
+    ///
+    /// # Errors
+    /// [`LaplacianError`]
+    pub fn new(graph: &QuadGraph, factoring: impl FnOnce()) -> Result<Self, LaplacianError> {
+        let colouring = Colouring::new(graph)?;
+        let loops = Loops::new(graph, &colouring)?;
+        let numbering = Numbering::new(graph, &colouring, &loops.black);
+        let matrix = inner_matrix(graph, &colouring, &numbering);
+        factoring();
+        let factor = Factor::new(graph, &matrix)?;
+        let rows = BoundaryRows::new(graph, &colouring, &numbering, &loops.black);
+        let mut laplacian = ConformalLaplacian { colouring, numbering, loops, rows, factor, shifts: Vec::new() };
+        laplacian.shifts = laplacian.shifts_between_loops(graph);
+        Ok(laplacian)
+    }
+
+    /// The colours of the vertices.
+    pub fn colouring(&self) -> &Colouring {
+        &self.colouring
+    }
+
+    /// Number of black boundary vertices, n; as many are white.
+    pub fn len(&self) -> usize {
+        self.loops.black.len()
+    }
+
+    /// Whether there is no boundary.
+    pub fn is_empty(&self) -> bool {
+        self.loops.black.is_empty()
+    }
+
+    /// The boundary positions of every loop, the outer one first.
+    pub fn loops(&self) -> &[Range<usize>] {
+        &self.loops.ranges
+    }
+
+    /// The black boundary vertices (n).
+    pub fn black_boundary(&self) -> &[u32] {
+        &self.loops.black
+    }
+
+    /// The white boundary vertices (n): number k lies between the black ones k and k + 1 of its loop.
+    pub fn white_boundary(&self) -> &[u32] {
+        &self.loops.white
+    }
+
+    /// Where the black boundary vertices are in [`QuadGraph::boundary`] (n).
+    pub fn black_index(&self) -> &[u32] {
+        &self.loops.black_index
+    }
+
+    /// Where the white boundary vertices are in [`QuadGraph::boundary`] (n).
+    pub fn white_index(&self) -> &[u32] {
+        &self.loops.white_index
+    }
+
+    /// The inner black vertices I, in the order of elimination (m).
+    pub fn inner(&self) -> &[u32] {
+        &self.numbering.inner
+    }
+
+    /// The number of vertex `v` among [`ConformalLaplacian::inner`], where it is one of them.
+    pub fn inner_index(&self, v: u32) -> Option<usize> {
+        self.numbering.index(v)
+    }
+
+    /// The black vertex that is held, on a closed surface.
+    pub fn held(&self) -> Option<u32> {
+        self.numbering.held
+    }
+
+    /// Memory for solves, to be used again and again.
+    pub fn work(&self) -> Work {
+        Work::new(self.numbering.inner.len())
+    }
+
+    /// Overwrites y (m) with `L_II⁻¹ y`.
+    pub fn inner_solve(&self, y: &mut [Complex64], work: &mut Work) {
+        self.factor.solve(y, work);
+    }
+
+    /// Writes the flux `T b = L_BB b − L_BI L_II⁻¹ L_IB b` (n) of black boundary values b (n). T is complex symmetric:
+    /// its Hermitian transpose takes x to the conjugate of `T x̄`.
+    pub fn flux(&self, b: &[Complex64], flux: &mut [Complex64], work: &mut Work) {
+        self.rows.along(b, flux);
+        let mut y = work.take();
+        self.rows.inward(b, &mut y);
+        self.factor.solve(&mut y, work);
+        self.rows.subtract_outward(&y, flux);
+        work.give_back(y);
+    }
+
+    /// Writes the white boundary values w (n), given black ones b and their [flux](ConformalLaplacian::flux).
+    ///
+    /// `w_k − w_{k−1} = i (T b)_k` along each loop; the mean of w over the first loop is w_0, and the other loops follow
+    /// by adding up (2) along a path of quads.
+    pub fn white(&self, b: &[Complex64], flux: &[Complex64], w_0: Complex64, w: &mut [Complex64]) {
+        for range in &self.loops.ranges {
+            let mut sum = Complex64::ZERO;
+            for k in range.clone() {
+                if k > range.start {
+                    sum += Complex64::I * flux[k];
+                }
+                w[k] = sum;
+            }
+        }
+        let Some(first) = self.loops.ranges.first() else { return };
+        let mean = w[first.clone()].iter().sum::<Complex64>() / first.len() as f64;
+        w[first.clone()].iter_mut().for_each(|w| *w += w_0 - mean);
+        for (range, shift) in self.loops.ranges[1..].iter().zip(&self.shifts) {
+            let step: Complex64 = shift.iter().zip(b).map(|(c, b)| c * b).sum();
+            let start = w[first.start] + step;
+            w[range.clone()].iter_mut().for_each(|w| *w += start);
+        }
+    }
+
+    /// For every loop but the first, the vector c (n) with `w_k − w_l = c·b` (no conjugate): k is the first position of
+    /// that loop, l that of the first loop.
+    pub fn shifts(&self) -> &[Vec<Complex64>] {
+        &self.shifts
+    }
+}
