@@ -1,12 +1,14 @@
 //! The record of a run: everything that a table or figure is made from. Field names are fixed; others may be added.
 
+use std::fmt;
+
 use num_complex::Complex64;
 use serde::Serialize;
 
 use crate::distortion::{Distortion, Validity};
 use crate::input::Input;
 use crate::map::periodic::PeriodsRecord;
-use crate::map::{Domain, Exactly, LengthsRecord, Map, Mapped};
+use crate::map::{Domain, Exactly, LengthsRecord, Map, Mapped, Provenance, Replacement, Setback};
 use crate::quad_graph::QuadGraph;
 use crate::surface::cut::CutRecord;
 use crate::surface::digital::{Adjacency, Digital};
@@ -160,8 +162,8 @@ pub struct EnergyRecord {
 /// The solver.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SolverRecord {
-    /// Name of the backend.
-    pub backend: &'static str,
+    /// Name of the solver, and in parentheses how it came to be used.
+    pub backend: String,
     /// `solved`; iterative ones: `converged`, `precision` (rounding keeps the energy from falling further),
     /// `max-iterations`, `interrupted`.
     pub status: &'static str,
@@ -332,13 +334,16 @@ impl SolverRecord {
     /// The record of a solution.
     pub fn new(map: &Map, validity: &Validity, cost: Cost) -> Self {
         SolverRecord {
-            backend: map.backend,
-            status: map.outcome.name(),
+            backend: map.provenance.to_string(),
+            status: map.ending.name(),
             valid: validity.is_one_to_one(),
             locally_injective: validity.is_locally_one_to_one(),
-            repaired: map.repaired,
-            plain_folded: map.plain_folded,
-            plain_shear: map.plain_shear,
+            repaired: map.provenance.is_repaired(),
+            plain_folded: map.provenance.flipped(),
+            plain_shear: map.provenance.replaced.and_then(|replaced| match replaced.by {
+                Replacement::LessDistorted { mean } => Some(mean),
+                _ => None,
+            }),
             held: map.fixed.len(),
             iterations: map.iterations,
             gradient_norm: map.gradient_norm,
@@ -349,5 +354,19 @@ impl SolverRecord {
             smallest_singular_value: map.smallest_singular_value,
             exactly: map.exactly,
         }
+    }
+}
+
+impl fmt::Display for Provenance {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let how = match (self.replaced.map(|replaced| replaced.by), self.after) {
+            (Some(Replacement::Locally), _) => " (near folds)",
+            (Some(Replacement::Wholly | Replacement::LessDistorted { .. }), _) => " (valid)",
+            (Some(Replacement::OtherWeights), _) => "",
+            (None, Some(Setback::Stalled { .. })) => " (reduced stalled)",
+            (None, Some(Setback::OutOfOrder)) => " (reduced out of order)",
+            (None, None) => "",
+        };
+        write!(out, "{}{how}", self.solver)
     }
 }

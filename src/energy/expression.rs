@@ -63,6 +63,11 @@ impl Expression {
         self.terms.iter().any(|t| t.name == name && t.coefficient > 0.0)
     }
 
+    /// Whether it is +∞ where a face is flipped.
+    pub fn is_flip_free(&self) -> bool {
+        self.rows().any(|row| row.flip_free)
+    }
+
     /// The rows of the energies that occur with positive coefficients.
     pub fn rows(&self) -> impl Iterator<Item = &'static Row> + '_ {
         self.terms.iter().filter(|t| t.coefficient > 0.0).filter_map(|t| energy(t.name))

@@ -1,5 +1,9 @@
+use num_complex::Complex64;
+
 use super::lengths::{Prescribed, prescribe};
 use super::{MapError, MapOptions, RhoSource};
+use crate::constraint::Fixed;
+use crate::distortion::{Validity, folded_faces};
 use crate::geometry::vector::scale;
 use crate::input::Input;
 use crate::quad_graph::metric::RestMetric;
@@ -64,6 +68,52 @@ impl Domain {
     /// Whether the faces are triangles.
     pub fn is_of_triangles(&self) -> bool {
         self.disc.faces.arity() == Some(3)
+    }
+
+    /// Whether the map that puts the vertices of the mesh at `z` is one-to-one, exactly.
+    pub fn is_one_to_one(&self, z: &[Complex64]) -> bool {
+        self.validity(z).is_one_to_one()
+    }
+
+    /// The faces that fold in the map that puts the vertices of the mesh at `z`, as the domain numbers them.
+    pub(super) fn folded(&self, z: &[Complex64]) -> Vec<u32> {
+        folded_faces(&self.disc, |c| z[self.disc.faces.corners()[c] as usize])
+    }
+
+    /// The exact check of the map that puts the vertices of the mesh at `z`; what follows these, as dual vertices do, does not count.
+    pub fn validity(&self, z: &[Complex64]) -> Validity {
+        Validity::new(&self.disc, |c| z[self.disc.faces.corners()[c] as usize])
+    }
+
+    /// A map of the mesh's vertices made one of the quad graph's: dual vertices at the middle of their faces, those on the boundary where
+    /// `fixed` has them, or on their edges.
+    pub(crate) fn with_dual_vertices(&self, mut z: Vec<Complex64>, fixed: &Fixed) -> Vec<Complex64> {
+        let graph = &self.graph;
+        if graph.primal == graph.vertices {
+            return z;
+        }
+        for polygon in self.disc.faces.iter() {
+            let sum: Complex64 = polygon.iter().map(|&v| z[v as usize]).sum();
+            z.push(sum / polygon.len() as f64);
+        }
+        z.resize(graph.vertices, Complex64::ZERO);
+        let n = graph.boundary.len();
+        for k in (0..n).filter(|&k| graph.is_dual(graph.boundary[k])) {
+            let [before, after] = [(k + n - 1) % n, (k + 1) % n];
+            let (l, m) = (graph.boundary_length[before], graph.boundary_length[k]);
+            let [a, b] = [before, after].map(|k| z[graph.boundary[k] as usize]);
+            let on_edge = (a * m + b * l) / (l + m);
+            z[graph.boundary[k] as usize] = fixed.place(graph.boundary[k]).unwrap_or(on_edge);
+        }
+        z
+    }
+
+    /// The signed area inside the boundary of an image.
+    pub(super) fn image_area(&self, z: &[Complex64]) -> f64 {
+        let boundary = &self.graph.boundary;
+        let next = boundary.iter().cycle().skip(1);
+        let pairs = boundary.iter().zip(next);
+        pairs.map(|(&v, &w)| 0.5 * (z[v as usize].conj() * z[w as usize]).im).sum()
     }
 }
 

@@ -222,6 +222,20 @@ impl MapOptions {
         })
     }
 
+    /// Whether a conformal map that is not injective is replaced.
+    pub fn promises_valid(&self) -> bool {
+        self.valid != Valid::Off
+            && self.energy.is_none()
+            && self.pins.is_empty()
+            && self.boundary_lengths.is_none()
+            && matches!(self.boundary, Boundary::Circle | Boundary::Free)
+    }
+
+    /// Whether a fixed boundary is on the unit circle.
+    pub(super) fn fixed_on_circle(&self) -> bool {
+        self.positions.is_none() && self.shape == Shape::Circle
+    }
+
     /// The vertices of `graph` that a fixed boundary and the pins hold, and where.
     ///
     /// # Errors

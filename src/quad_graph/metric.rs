@@ -62,6 +62,11 @@ impl RestMetric {
         }
     }
 
+    /// The area of the surface.
+    pub fn surface_area(&self) -> f64 {
+        self.triangles.iter().map(|t| t.area).sum()
+    }
+
     /// The same with triangles at the corners of quads whose angle is 0 or π, or that have an edge without length.
     #[must_use]
     pub fn with_open_corners(self, disc: &OrientedMesh, planes: Option<&TangentPlanes>) -> Self {

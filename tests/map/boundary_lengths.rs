@@ -139,7 +139,7 @@ fn edges_may_be_named_in_any_order() {
         let asked = Some(BoundaryLengths { unit: LengthUnit::Lengths, values });
         match run(&input, &free(asked), &mut Silent) {
             Err(MapError::Lengths(error)) => error,
-            other => panic!("{:?}", other.map(|mapped| mapped.map.backend)),
+            other => panic!("{:?}", other.map(|mapped| mapped.map.provenance.to_string())),
         }
     };
     let [v, w] = [loop_[0] as u32, loop_[1] as u32];
@@ -157,7 +157,7 @@ fn maps_that_keep_no_lengths_refuse_them() {
     let input = Input::open("graph:cos+cos?n=9").unwrap();
     for boundary in [Boundary::Circle, Boundary::Fixed] {
         let options = MapOptions { boundary, ..free(factors(vec![1.0; 32])) };
-        let error = run(&input, &options, &mut Silent).map(|mapped| mapped.map.backend);
+        let error = run(&input, &options, &mut Silent).map(|mapped| mapped.map.provenance.to_string());
         assert!(matches!(error, Err(MapError::Lengths(LengthsError::NotKept { .. }))), "{error:?}");
     }
 }

@@ -13,7 +13,7 @@ fn mapped(name: &str, boundary: Boundary, iterations: usize) -> Mapped {
     let mapped =
         run(&Input::open(name).unwrap(), &options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"));
     let scale = mapped.distortion.smallest_scale.unwrap();
-    println!("{name} {boundary:?}: {} {}, {scale:e}", mapped.map.outcome.name(), mapped.map.iterations);
+    println!("{name} {boundary:?}: {} {}, {scale:e}", mapped.map.ending.name(), mapped.map.iterations);
     assert!(begun.elapsed().as_secs() < 60, "{name} {boundary:?}");
     assert!(mapped.map.z.iter().all(|z| z.is_finite()), "{name} {boundary:?}");
     assert!(mapped.validity.is_locally_one_to_one(), "{name} {boundary:?}: {:?}", mapped.validity);
@@ -48,7 +48,7 @@ fn maps_are_valid_on_both_sides_of_what_doubles_hold() {
 fn the_smallest_scale_of_a_capsule_is_that_of_its_conformal_map() {
     let scale = |length: f64| {
         let mapped = mapped(&format!("capsule?length={length}&n=40&mesh=quad"), Boundary::Circle, 100);
-        assert!(!mapped.map.repaired);
+        assert!(!mapped.map.provenance.is_repaired());
         mapped.distortion.smallest_scale.unwrap()
     };
     // The mesh is coarse: half an edge is up to length/40 of the exponent.

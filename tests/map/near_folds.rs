@@ -20,7 +20,11 @@ fn a_map_with_few_folds_is_the_plain_one_away_from_them() {
             mapped(name, &MapOptions { valid: Valid::Off, solver: "reduced".to_owned(), ..MapOptions::default() });
         let found = mapped(name, &MapOptions::default());
         assert!(!plain.validity.is_one_to_one(), "{name}: no fold to take out");
-        assert!(found.map.repaired && found.map.backend.contains("near folds"), "{name}: {}", found.map.backend);
+        assert!(
+            found.map.provenance.is_repaired() && found.map.provenance.to_string().contains("near folds"),
+            "{name}: {}",
+            found.map.provenance
+        );
         assert!(found.validity.is_one_to_one(), "{name}: {:?}", found.validity);
         assert_eq!(found.distortion.boundary_out_of_order, Some(0), "{name}");
         let kept = plain.map.z.iter().zip(&found.map.z).filter(|(a, b)| a == b).count();
@@ -44,7 +48,7 @@ fn folds_of_free_maps_are_taken_out_where_they_are() {
     let name = "rough?n=33&height=0.3&seed=1";
     let free = |valid| mapped(name, &MapOptions { boundary: Boundary::Free, valid, ..MapOptions::default() });
     let (plain, found) = (free(Valid::Off), free(Valid::Auto));
-    println!("{} folded, then {}", plain.validity.folded.len(), found.map.backend);
+    println!("{} folded, then {}", plain.validity.folded.len(), found.map.provenance);
     assert!(found.validity.is_locally_one_to_one());
 }
 
@@ -53,9 +57,9 @@ fn a_map_that_is_stopped_while_folds_are_taken_out_is_valid() {
     let name = "graph:cos+cos?n=41&jitter=0.3&seed=1";
     for n in [1, 2, 3, 4, 6, 8, 10, 15, 25] {
         let stopped = run(&Input::open(name).unwrap(), &MapOptions::default(), &mut Stopper(n)).unwrap();
-        assert!(stopped.validity.is_one_to_one(), "stopped after {n}: {}", stopped.map.backend);
+        assert!(stopped.validity.is_one_to_one(), "stopped after {n}: {}", stopped.map.provenance);
         let limited = mapped(name, &MapOptions { max_iterations: Some(n), ..MapOptions::default() });
-        assert!(limited.validity.is_one_to_one(), "limited to {n}: {}", limited.map.backend);
+        assert!(limited.validity.is_one_to_one(), "limited to {n}: {}", limited.map.provenance);
         assert!(limited.map.iterations <= n, "{} of {n}", limited.map.iterations);
     }
 }

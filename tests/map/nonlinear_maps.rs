@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use riemap::constraint::float_white_back;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapError, MapOptions, Mapped, Outcome, Pin, Valid, run};
+use riemap::map::{Boundary, Ending, MapError, MapOptions, Mapped, Pin, Valid, run};
 use riemap::solver::{LINEAR_BACKENDS, MINIMISERS, Silent, Status, linear_backend};
 use riemap::surface::Surface;
 
@@ -41,8 +41,8 @@ fn show(what: &str, mapped: &Mapped) {
     let Mapped { map, distortion, .. } = mapped;
     println!(
         "{what}: {} {} after {}, E {:e}, |g| {:?}, sigma {:?}, flipped {}",
-        map.backend,
-        map.outcome.name(),
+        map.provenance,
+        map.ending.name(),
         map.iterations,
         total(mapped),
         map.gradient_norm,
@@ -64,7 +64,7 @@ fn energies_with_unit_weights_are_those_of_an_independent_minimiser() {
         assert!((total(&mapped) / value - 1.0).abs() < 2e-6, "{energy}: {}", total(&mapped));
         assert!(mapped.map.iterations <= iterations, "{energy}: {}", mapped.map.iterations);
         assert_eq!(mapped.distortion.flipped, 0, "{energy}");
-        assert_eq!(mapped.map.outcome, Outcome::Minimised(Status::Converged), "{energy}");
+        assert_eq!(mapped.map.ending, Ending::Minimised(Status::Converged), "{energy}");
     }
     let circle = map(GRID_33, &options("H + C", Weight::Unit));
     show("H + C", &circle);
@@ -284,7 +284,7 @@ fn what_does_not_converge_is_an_error_unless_the_end_was_set() {
         let options =
             MapOptions { solver: solver.to_owned(), max_iterations: Some(2), ..options("H + L", Weight::Unit) };
         let mapped = map(name, &options);
-        assert_eq!((mapped.map.outcome, mapped.map.iterations), (Outcome::Minimised(Status::MaxIterations), 2));
+        assert_eq!((mapped.map.ending, mapped.map.iterations), (Ending::Minimised(Status::MaxIterations), 2));
     }
     // Two stages share the iterations.
     for max_iterations in [1, 5] {
@@ -294,7 +294,7 @@ fn what_does_not_converge_is_an_error_unless_the_end_was_set() {
     // Out of reach of doubles and of conjugate gradients' default number of iterations alike.
     let never = MapOptions { solver: "cg-exact".to_owned(), tolerance: 1e-300, ..options("H + C", Weight::Unit) };
     match run(&Input::open("graph:cos+cos?n=9").unwrap(), &never, &mut Silent) {
-        Ok(mapped) => assert_eq!(mapped.map.outcome, Outcome::Minimised(Status::Precision)),
+        Ok(mapped) => assert_eq!(mapped.map.ending, Ending::Minimised(Status::Precision)),
         Err(error) => assert!(matches!(error, MapError::NotConverged { .. }), "{error}"),
     }
 }
@@ -305,7 +305,7 @@ fn an_interrupted_map_is_the_initial_one_and_says_so() {
         let input = Input::open("graph:cos+cos?n=9").unwrap();
         let options = MapOptions { keep_order, ..options(energy, Weight::Integral) };
         let mapped = run(&input, &options, &mut Stopper(0)).unwrap();
-        assert_eq!((mapped.map.outcome, mapped.map.iterations), (Outcome::Minimised(Status::Interrupted), 0));
+        assert_eq!((mapped.map.ending, mapped.map.iterations), (Ending::Minimised(Status::Interrupted), 0));
         assert!(mapped.map.z.iter().all(|z| z.is_finite()) && mapped.distortion.flipped == 0);
     }
 }
@@ -352,7 +352,7 @@ fn a_fixed_boundary_takes_metric_energies_for_the_interior() {
     let name = "graph:cos+cos?n=9";
     let fixed = |energy| MapOptions { boundary: Boundary::Fixed, ..options(energy, Weight::Integral) };
     let (both, h) = (map(name, &fixed("H + L")), map(name, &fixed("H")));
-    assert_eq!(h.map.outcome, Outcome::Solved);
+    assert_eq!(h.map.ending, Ending::Solved);
     for &v in &both.domain.graph.boundary {
         assert_eq!(both.map.z[v as usize], h.map.z[v as usize]);
     }

@@ -84,7 +84,7 @@ fn the_smallest_discs_are_mapped_under_every_choice() {
                             Boundary::Free => made.validity.is_locally_one_to_one(),
                             _ => true,
                         };
-                        println!("{what}: {} {} {is_valid}", made.map.backend, made.map.outcome.name());
+                        println!("{what}: {} {} {is_valid}", made.map.provenance, made.map.ending.name());
                         assert!(is_valid || valid == Valid::Off, "{what}: {:?}", made.validity);
                     }
                 }

@@ -3,7 +3,7 @@
 use crate::common::{disc, largest_difference, surface};
 use num_complex::Complex64;
 use riemap::input::Input;
-use riemap::map::{self, Boundary, MapError, MapOptions, Mapped, Pin, Valid};
+use riemap::map::{self, Boundary, MapError, MapOptions, Mapped, Pin, Provenance, Valid};
 use riemap::solver::Silent;
 use riemap::solver::convex::EDGE_WEIGHTS;
 use riemap::surface::Surface;
@@ -72,7 +72,7 @@ fn positive_weights_give_maps_that_are_one_to_one_whatever_the_shape() {
         for name in names {
             let mapped = mapped(name, &options(row.name));
             assert!(mapped.validity.is_one_to_one(), "{name} {}", row.name);
-            assert_eq!((mapped.map.backend, mapped.map.repaired), (row.name, false));
+            assert_eq!(mapped.map.provenance, Provenance::of(row.name));
         }
     }
 }
@@ -104,9 +104,14 @@ fn what_rounding_spoils_is_drawn_outward() {
         let finger = Input::of("finger".to_owned(), finger(girth, 400));
         let run = |valid: Valid| map::run(&finger, &MapOptions { valid, ..options("uniform") }, &mut Silent).unwrap();
         let spoiled = run(Valid::Off);
-        assert!(!spoiled.validity.is_one_to_one() && !spoiled.map.repaired, "{girth}");
+        assert!(!spoiled.validity.is_one_to_one() && !spoiled.map.provenance.is_repaired(), "{girth}");
         let mended = run(Valid::Auto);
-        assert!(mended.validity.is_one_to_one() && mended.map.repaired && mended.map.backend == "outward", "{girth}");
+        assert!(
+            mended.validity.is_one_to_one()
+                && mended.map.provenance.is_repaired()
+                && mended.map.provenance.to_string() == "outward",
+            "{girth}"
+        );
     }
 }
 

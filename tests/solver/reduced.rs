@@ -6,7 +6,7 @@ use crate::common::*;
 use num_complex::Complex64;
 use riemap::energy::conformal::{Weight, normal_product, normal_product_scale, weights};
 use riemap::input::Input;
-use riemap::map::{Boundary, Exactly, MapError, MapOptions, Mapped, Pin, RhoSource, Valid, run};
+use riemap::map::{Boundary, Exactly, MapError, MapOptions, Mapped, Pin, Provenance, RhoSource, Valid, run};
 use riemap::quad_graph::curvature;
 use riemap::solver::Silent;
 use riemap::solver::boundary::{Reduction, Unreduced};
@@ -146,7 +146,7 @@ fn the_boundary_is_on_the_circle_the_gradient_below_its_bound_and_pins_where_the
             })
             .collect();
         let mapped = map(name, &MapOptions { pins: pins.clone(), ..circle("auto") });
-        assert_eq!(mapped.map.backend, "reduced");
+        assert_eq!(mapped.map.provenance.to_string(), "reduced");
         println!("{count} pins: {} steps, |g| {:?}", mapped.map.iterations, mapped.map.gradient_norm);
         assert!(mapped.map.gradient_norm.unwrap() <= 1e-10, "{count}");
         for &v in &mapped.domain.graph.boundary {
@@ -181,7 +181,7 @@ fn boundary_lengths_are_kept_to_ten_times_the_tolerance_and_h_vanishes_on_smooth
 fn on_irregular_meshes_free_maps_are_as_conformal_as_levenberg_marquardts() {
     for name in ["sphere?n=12&mesh=delaunay", "enneper?n=12&mesh=triangle", "graph:cos+cos?n=15&jitter=0.3&seed=2"] {
         let (reduced, soft) = (map(name, &free("auto")), map(name, &free("levenberg-marquardt")));
-        assert_eq!(reduced.map.backend, "reduced", "{name}");
+        assert_eq!(reduced.map.provenance.to_string(), "reduced", "{name}");
         assert!(length_error(&reduced) < 1.1e-9, "{name}");
         let error = |mapped: &Mapped| mapped.distortion.quasi_conformal.as_ref().unwrap().mean;
         println!("{name}: {} and {}", error(&reduced), error(&soft));
@@ -237,11 +237,11 @@ fn what_does_not_reduce_is_refused_by_name_and_left_to_others_by_auto() {
         let error = refusal(name, &options);
         assert!(matches!(error, MapError::Reduced(Unreduced::Unsuitable { .. })), "{error}");
         let mapped = map(name, &MapOptions { solver: "auto".to_owned(), ..options });
-        assert_eq!((mapped.map.backend, mapped.map.exactly), ("levenberg-marquardt", None));
+        assert_eq!((mapped.map.provenance, mapped.map.exactly), (Provenance::of("levenberg-marquardt"), None));
     }
     // Other coefficients are another problem, unless the backend is asked for.
     let weighted = MapOptions { energy: with("H + 2 C"), ..circle("auto") };
-    assert_eq!(map(name, &weighted).map.backend, "levenberg-marquardt");
+    assert_eq!(map(name, &weighted).map.provenance.to_string(), "levenberg-marquardt");
     let weighted = MapOptions { energy: with("H + 2 C"), ..circle("reduced") };
     assert_eq!(map(name, &weighted).map.z, map(name, &circle("auto")).map.z);
     let obtuse = "graph:cos+cos?n=9&mesh=triangle&jitter=0.4";
@@ -269,11 +269,11 @@ fn the_smallest_meshes_are_mapped_or_refused_in_words() {
 fn digital_surfaces_keep_their_projected_lengths() {
     let name = "digital-cap?R=8";
     let mapped = map(name, &MapOptions { rho: RhoSource::Auto, ..free("auto") });
-    println!("{} {:?} H {:e}", mapped.map.backend, mapped.map.residual, h(&mapped));
-    assert_eq!(mapped.map.backend, "reduced");
+    println!("{} {:?} H {:e}", mapped.map.provenance, mapped.map.residual, h(&mapped));
+    assert_eq!(mapped.map.provenance.to_string(), "reduced");
     assert!(length_error(&mapped) < 1.1e-9);
     let round = map(name, &circle("auto"));
-    assert_eq!(round.map.backend, "reduced");
+    assert_eq!(round.map.provenance.to_string(), "reduced");
     assert!(round.map.gradient_norm.unwrap() <= 1e-10);
 }
 
@@ -286,9 +286,10 @@ fn hard_boundaries_fall_back_to_levenberg_marquardt_and_say_so() {
     }
     let path = path.to_str().unwrap();
     let mapped = map(path, &free("auto"));
-    println!("{}: {:?}", mapped.map.backend, mapped.map.energies);
-    if mapped.map.backend != "reduced" {
-        assert_eq!((mapped.map.backend, mapped.map.exactly), ("levenberg-marquardt (reduced stalled)", None));
+    println!("{}: {:?}", mapped.map.provenance, mapped.map.energies);
+    if mapped.map.provenance.to_string() != "reduced" {
+        let name = mapped.map.provenance.to_string();
+        assert_eq!((name.as_str(), mapped.map.exactly), ("levenberg-marquardt (reduced stalled)", None));
         let error = refusal(path, &free("reduced"));
         assert!(matches!(error, MapError::Reduced(Unreduced::Stalled { .. })), "{error}");
     }

@@ -104,7 +104,7 @@ pub fn compare(ours: &CotanMap, libigl: &Environment) -> Result<Comparison, Veri
         negative_weights: theirs.negative_weights,
         difference: map.z.iter().zip(&theirs.uv).map(distance).fold(0.0, worst),
         libigl: theirs,
-        backend: map.backend,
+        backend: map.provenance.solver,
     })
 }
 

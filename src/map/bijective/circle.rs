@@ -19,7 +19,7 @@ impl Repair<'_> {
     pub(super) fn circle(&self, watch: &mut dyn Observer) -> Result<Map, MapError> {
         let (stage, one) = self.least_shear(watch)?;
         let (stage, fixed, anchored) = match self.at_anchors(&stage) {
-            Some((stage, fixed)) => (stage, fixed, self.anchors.exact),
+            Some((stage, fixed)) => (stage, fixed, self.setup.normalisation.exact),
             None => (stage, one, false),
         };
         let has_come_to_its_end = matches!(stage.status, Status::Converged | Status::Precision);
@@ -33,11 +33,8 @@ impl Repair<'_> {
     /// The image of a map of the disc by the Möbius map that takes the boundary points of the plain map to their places, and what is
     /// held then; `None` where it is not one-to-one.
     fn at_anchors(&self, stage: &Stage) -> Option<(Stage, Fixed)> {
-        let graph = &self.domain.graph;
-        let mut fixed = Fixed::default();
-        for &(k, angle) in &self.anchors.points {
-            fixed.hold(graph.boundary[k], Complex64::cis(angle));
-        }
+        let graph = &self.setup.domain.graph;
+        let fixed = self.setup.normalisation.fixed(graph);
         let three = self.three_points()?.map(|(k, place)| (graph.boundary[k], place));
         let moebius = Moebius::through(three.map(|(v, _)| stage.z[v as usize]), three.map(|(_, place)| place)).ok()?;
         let mut z: Vec<Complex64> = stage.z[..graph.primal].iter().map(|&z| moebius.at(z)).collect();
@@ -45,7 +42,7 @@ impl Repair<'_> {
             let place = z[v as usize];
             z[v as usize] = fixed.place(v).unwrap_or(place / place.norm());
         }
-        if !self.domain.is_one_to_one(&z) {
+        if !self.setup.domain.is_one_to_one(&z) {
             return None;
         }
         let z = self.with_dual_vertices(z);
@@ -61,7 +58,7 @@ impl Repair<'_> {
 
     /// The positions and places of the points that the plain map holds; a third one by arc length beside two.
     fn three_points(&self) -> Option<[(usize, Complex64); 3]> {
-        let (graph, points) = (&self.domain.graph, &self.anchors.points);
+        let (graph, points) = (&self.setup.domain.graph, &self.setup.normalisation.points);
         let mut three: Vec<(usize, Complex64)> = points.iter().map(|&(k, angle)| (k, Complex64::cis(angle))).collect();
         if let [(first, _), (second, _)] = points[..] {
             let n = graph.boundary.len();
@@ -78,7 +75,7 @@ impl Repair<'_> {
 
     /// The lowest MIPS on the disc. One boundary point is held: with three, long parts of the surface converge far more slowly.
     pub(super) fn least_shear(&self, watch: &mut dyn Observer) -> Result<(Stage, Fixed), MapError> {
-        let graph = &self.domain.graph;
+        let graph = &self.setup.domain.graph;
         let whole = on_circle_apart(graph)?;
         let mut fixed = Fixed::default();
         fixed.hold(graph.boundary[0], Complex64::ONE);
@@ -90,7 +87,7 @@ impl Repair<'_> {
         };
         // Angles are rounded, and places that come from them.
         let suits = |z: &[Complex64]| objective.value(&objective.freedoms.restrict(&padded(z))).is_finite();
-        let z = self.domain.convex_start(&whole, &suits, watch)?;
+        let z = self.setup.domain.convex_start(&whole, &suits, watch)?;
         let stage = self.minimise(&objective, Stage::start(padded(&z)), watch)?;
         Ok((self.with_dual_vertices_placed(stage), fixed))
     }
@@ -103,7 +100,7 @@ impl Repair<'_> {
 
     /// MIPS of the mesh's own vertices, on a disc of area π.
     fn shear(&self, fixed: &Fixed) -> Result<Objective, MapError> {
-        let graph = &self.domain.graph;
+        let graph = &self.setup.domain.graph;
         // MIPS does not see dual vertices.
         let mut held = fixed.clone();
         (graph.primal..graph.vertices).for_each(|v| held.hold(v as u32, Complex64::ZERO));
@@ -113,15 +110,15 @@ impl Repair<'_> {
     }
 
     fn with_dual_vertices_placed(&self, mut stage: Stage) -> Stage {
-        stage.z.truncate(self.domain.graph.primal);
+        stage.z.truncate(self.setup.domain.graph.primal);
         stage.z = self.with_dual_vertices(stage.z);
         stage
     }
 
     /// Dual vertices at the barycentres of the image's faces, those of boundary edges in the middle of their arcs.
     fn with_dual_vertices(&self, z: Vec<Complex64>) -> Vec<Complex64> {
-        let graph = &self.domain.graph;
-        let mut z = self.domain.with_dual_vertices(z, &Fixed::default());
+        let graph = &self.setup.domain.graph;
+        let mut z = self.setup.domain.with_dual_vertices(z, &Fixed::default());
         let n = graph.boundary.len();
         for k in (0..n).filter(|&k| graph.is_dual(graph.boundary[k])) {
             let [a, b] = [(k + n - 1) % n, (k + 1) % n].map(|k| z[graph.boundary[k] as usize]);

@@ -6,7 +6,7 @@ use super::{Patience, Repair, Stage};
 use crate::constraint::{Fixed, Freedoms};
 use crate::energy::conformal::Weight;
 use crate::energy::{Clearance, Expression, Metric};
-use crate::map::flip_free::{area_at_rest, hold_gauge, image_area};
+use crate::map::gauge::hold_mesh_gauge;
 use crate::map::{Map, MapError, Valid};
 use crate::problem::nonlinear::Objective;
 use crate::solver::{Observer, Status};
@@ -31,13 +31,14 @@ impl Repair<'_> {
     /// parts of the boundary may overlap. Where the result does so and must not, or lies on itself around a vertex, once more with a
     /// barrier between parts of the boundary: every iterate is then one-to-one.
     pub(super) fn free(&self, watch: &mut dyn Observer) -> Result<Map, MapError> {
-        let graph = &self.domain.graph;
+        let graph = &self.setup.domain.graph;
         let (mut disc, _) = self.least_shear(watch)?;
         // By a power of two: nothing is rounded.
-        let scale = 2f64.powf((0.5 * (area_at_rest(self.metric) / image_area(graph, &disc.z)).log2()).round());
+        let scale =
+            2f64.powf((0.5 * (self.metric.surface_area() / self.setup.domain.image_area(&disc.z)).log2()).round());
         disc.z.iter_mut().for_each(|z| *z *= scale);
         let mut fixed = Fixed::default();
-        hold_gauge(&mut fixed, &Expression::of(&["MIPS", "Lb"]), graph, &disc.z);
+        hold_mesh_gauge(&mut fixed, &Expression::of(&["MIPS", "Lb"]), graph, &disc.z);
         let mut held = fixed.clone();
         (graph.primal..graph.vertices).for_each(|v| held.hold(v as u32, Complex64::ZERO));
         let mut stage = self.flatten(disc.clone(), &held, Overlaps::Allowed, watch)?;
@@ -47,7 +48,7 @@ impl Repair<'_> {
             stage = self.flatten(disc, &held, Overlaps::Barred, watch)?;
         }
         stage.z.truncate(graph.primal);
-        stage.z = self.domain.with_dual_vertices(std::mem::take(&mut stage.z), &Fixed::default());
+        stage.z = self.setup.domain.with_dual_vertices(std::mem::take(&mut stage.z), &Fixed::default());
         Ok(self.map(stage, fixed))
     }
 
@@ -64,7 +65,7 @@ impl Repair<'_> {
             // A boundary that must become longer at once is crumpled, and so jams.
             Overlaps::Barred => &LENGTHS[1..],
         };
-        let last = (self.options.valid == Valid::BestQc).then_some(HARDLY);
+        let last = (self.setup.options.valid == Valid::BestQc).then_some(HARDLY);
         for coefficient in lengths.iter().copied().chain(last) {
             if stage.is_over(self.left) {
                 break;
@@ -85,10 +86,10 @@ impl Repair<'_> {
         held: &Fixed,
         watch: &mut dyn Observer,
     ) -> Result<Stage, MapError> {
-        let end = stage.iterations + PATIENCE.with(self.domain.disc.faces.len());
+        let end = stage.iterations + PATIENCE.with(self.setup.domain.disc.faces.len());
         loop {
             let mut objective = self.flat(coefficient, held)?;
-            objective.terms.push((CLEARANCE, Box::new(Clearance::new(&self.domain.graph, &stage.z))));
+            objective.terms.push((CLEARANCE, Box::new(Clearance::new(&self.setup.domain.graph, &stage.z))));
             let round = ROUND.min(end - stage.iterations);
             stage = self.minimise_within(round, &objective, stage, watch)?;
             if stage.status != Status::MaxIterations || stage.iterations >= end || stage.is_over(self.left) {
@@ -99,9 +100,9 @@ impl Repair<'_> {
 
     /// MIPS + γ'L'.
     fn flat(&self, coefficient: f64, held: &Fixed) -> Result<Objective, MapError> {
-        let mut terms = self.mips(area_at_rest(self.metric))?;
+        let mut terms = self.mips(self.metric.surface_area())?;
         terms.push((coefficient, Box::new(Metric::mesh_boundary_edges(self.rest(&[], Weight::Integral)))));
-        Ok(self.objective(terms, Freedoms::new(self.domain.graph.vertices, held)))
+        Ok(self.objective(terms, Freedoms::new(self.setup.domain.graph.vertices, held)))
     }
 }
 

@@ -1,26 +1,23 @@
-//! Valid maps: what takes the place of a plain map that is not one-to-one (design: §10).
+//! Bijective maps: they replace a conformal map that is not injective (design: §10).
 //!
 //! Everything starts from a convex combination map that passes the exact check, and goes on by Newton's method under an energy that is +∞
 //! where a face folds. So every iterate is valid, and a minimisation that is interrupted leaves a valid map.
 
 mod circle;
 mod free;
-mod hopeless;
 mod in_order;
-mod near_folds;
 mod patch;
-
-pub(super) use hopeless::unless_hopeless;
+mod unflip;
 
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
 use num_complex::Complex64;
 
-use super::nonlinear::{self, Anchors};
-use super::{Boundary, Domain, Map, MapError, MapOptions, Outcome, Valid};
-use crate::constraint::{ConstraintError, Fixed, Freedoms};
-use crate::distortion::{Image, Validity, face_maps};
+use super::provenance::{Provenance, Replaced, Replacement};
+use super::setup::Setup;
+use super::{Boundary, Ending, Map, MapError};
+use crate::constraint::{Fixed, Freedoms};
 use crate::energy::conformal::{Dirichlet, Weight};
 use crate::energy::{Mips, Rest};
 use crate::problem::nonlinear::{Objective, Terms};
@@ -28,8 +25,8 @@ use crate::quad_graph::metric::RestMetric;
 use crate::solver::minimise::Newton;
 use crate::solver::{MinimiseError, Minimiser, Observer, Status, StopRule};
 
-/// The name of the backend in reports.
-const BACKEND: &str = "newton (valid)";
+/// Name of the solver.
+const SOLVER: &str = "newton";
 
 /// Iterations of one stage at most, where nothing else is said: the less the larger the mesh is, within bounds.
 struct Patience {
@@ -46,108 +43,40 @@ impl Patience {
 /// Long protrusions converge slowly, by a few per cent a step; what is reached by then is valid.
 const PATIENCE: Patience = Patience { faces_times_iterations: 10_000_000, iterations: 150..=1000 };
 
-impl MapOptions {
-    /// Whether the plain map is to be replaced where it is not valid.
-    pub fn promises_valid(&self) -> bool {
-        self.valid != Valid::Off
-            && self.energy.is_none()
-            && self.pins.is_empty()
-            && self.boundary_lengths.is_none()
-            && matches!(self.boundary, Boundary::Circle | Boundary::Free)
-    }
-}
-
-/// The mean of σ1/σ2 above which a circle map is nothing to keep though it folds no face: on coarse meshes with ragged boundaries H is
-/// least where some faces are drawn out to needles. Of 200 discs cut out of public meshes 74 had plain maps that fold nothing; 58 of these
-/// were above libigl's harmonic map, by factors up to 500. 45 of the 58 are above this mean, the others by a factor of 1.25 at most.
-const LARGEST_SHEAR: f64 = 2.0;
-
-/// The plain map where it passes the exact check, which for free maps may overlap itself; else, or where there is none because it did not
-/// converge, a valid one. Of a circle map that passes and is sheared by more than 2 in the mean, and of any under [`Valid::BestQc`], that
-/// of the two which has less shear.
-pub(super) fn kept_or_replaced(
-    options: &MapOptions,
-    domain: &Domain,
-    exact: Option<&[[f64; 2]]>,
-    plain: Result<Map, MapError>,
-    watch: &mut dyn Observer,
-) -> Result<Map, MapError> {
-    let (kept, folded, spent) = match plain {
-        Ok(map) => {
-            let validity = domain.validity(&map.z);
-            let spent = map.iterations;
-            if accepts(options, &validity) {
-                let looks_further = options.valid == Valid::BestQc
-                    || (options.boundary == Boundary::Circle && shear(domain, &map) > LARGEST_SHEAR);
-                match looks_further {
-                    true => (Some(map), None, spent),
-                    false => return Ok(map),
-                }
-            } else {
-                match unfolded(options, domain, &map, watch)? {
-                    (Some(found), _) => return Ok(found),
-                    (None, spent) => (None, Some(validity.folded.len()), spent),
-                }
-            }
-        }
-        Err(MapError::NotConverged { iterations, .. }) => (None, None, iterations),
-        // A start, or a matrix, beyond the range of doubles: others may be within.
-        Err(MapError::Minimise(_) | MapError::Constraint(ConstraintError::NoArcLength(..))) => (None, None, 0),
-        Err(MapError::Solve(ref error)) if error.is_of_rounding() => (None, None, 0),
-        Err(_) => return plain,
-    };
-    let metric = domain.rest_metric(options)?.with_open_corners(&domain.disc, domain.planes.as_ref());
-    let left = options.max_iterations.map(|n| n.saturating_sub(spent));
-    let anchors = match options.boundary {
-        Boundary::Free => Anchors::default(),
-        // Where arc length does not tell places apart there are none.
-        _ => nonlinear::anchors(options, &options.expression(), domain, exact).unwrap_or_default(),
-    };
-    let repair = Repair { options, domain, metric: &metric, left, anchors };
-    let found = match options.boundary {
-        Boundary::Free => repair.free(watch),
-        _ => repair.circle(watch),
-    };
-    let found = found.map(|map| Map { iterations: map.iterations + spent, plain_folded: folded, ..map });
-    let Some(plain) = kept else { return Ok(Map { repaired: true, ..found? }) };
-    let plain_shear = shear(domain, &plain);
-    let is_better = |map: &Map| accepts(options, &domain.validity(&map.z)) && shear(domain, map) < plain_shear;
-    Ok(match found.ok().filter(is_better) {
-        Some(map) => Map { plain_shear: Some(plain_shear), ..map },
-        None => plain,
-    })
-}
-
-/// The mean of σ1/σ2 over the faces.
-fn shear(domain: &Domain, map: &Map) -> f64 {
-    let faces = face_maps(&domain.disc, &domain.graph, &Image::of_disc(&map.z));
-    let (sum, count) = faces
-        .iter()
-        .filter(|face| face.has_shape())
-        .fold((0.0, 0usize), |(sum, count), face| (sum + face.quasi_conformal(), count + 1));
-    sum / count.max(1) as f64
-}
-
-/// The plain map with its folds taken out where they are, `None` where that does not do; and the iterations of both.
-pub(super) fn unfolded(
-    options: &MapOptions,
-    domain: &Domain,
+/// The conformal map `plain` with its flipped faces unflipped where they are, all else left as it is; `None` where that does not suffice;
+/// and the iterations of both.
+///
+/// # Errors
+/// A factorisation that breaks down.
+pub(super) fn unflipped(
+    setup: &Setup,
     plain: &Map,
     watch: &mut dyn Observer,
 ) -> Result<(Option<Map>, usize), MapError> {
-    let left = options.max_iterations.map(|n| n.saturating_sub(plain.iterations));
-    let (found, more) = near_folds::near_folds(options, domain, plain, left, watch)?;
+    let left = setup.options.max_iterations.map(|n| n.saturating_sub(plain.iterations));
+    let (found, more) = unflip::around_flipped(setup, plain, left, watch)?;
     let iterations = plain.iterations + more;
-    let folded = || domain.folded(&plain.z).len();
-    Ok((found.map(|map| Map { iterations, repaired: true, plain_folded: Some(folded()), ..map }), iterations))
+    let flipped = || Some(setup.domain.folded(&plain.z).len());
+    let replaced = || Some(Replaced { by: Replacement::Locally, flipped: flipped() });
+    let of = |map: Map| Provenance { replaced: replaced(), ..map.provenance };
+    Ok((found.map(|map| Map { iterations, provenance: of(map.clone()), ..map }), iterations))
 }
 
-/// Whether a map is as one-to-one as is asked for: free maps may overlap, unless otherwise said.
-fn accepts(options: &MapOptions, validity: &Validity) -> bool {
-    match options.boundary {
-        Boundary::Free if options.valid != Valid::OneToOne => validity.is_locally_one_to_one(),
-        _ => validity.is_one_to_one(),
-    }
+/// A bijective map of low quasi-conformal distortion, computed anew after so many iterations of other methods. With a free boundary it
+/// may overlap itself, unless one-to-one maps are asked for.
+///
+/// # Errors
+/// No convex combination map that passes the exact check; a factorisation that breaks down.
+pub(super) fn replacement(setup: &Setup, spent: usize, watch: &mut dyn Observer) -> Result<Map, MapError> {
+    let Setup { options, domain, .. } = setup;
+    let metric = domain.rest_metric(options)?.with_open_corners(&domain.disc, domain.planes.as_ref());
+    let left = options.max_iterations.map(|n| n.saturating_sub(spent));
+    let repair = Repair { setup, metric: &metric, left };
+    let map = match options.boundary {
+        Boundary::Free => repair.free(watch),
+        _ => repair.circle(watch),
+    }?;
+    Ok(Map { iterations: map.iterations + spent, ..map })
 }
 
 /// The point in the middle of the arc of the unit circle from a to b, counter-clockwise.
@@ -157,13 +86,10 @@ fn middle_of_arc(a: Complex64, b: Complex64) -> Complex64 {
 
 /// What a repair knows.
 struct Repair<'a> {
-    options: &'a MapOptions,
-    domain: &'a Domain,
+    setup: &'a Setup<'a>,
     metric: &'a RestMetric,
     /// Iterations that are left, where there is a limit.
     left: Option<usize>,
-    /// Circle maps: the points that the plain map holds.
-    anchors: Anchors,
 }
 
 /// A valid map on its way, and what is known of it.
@@ -192,7 +118,7 @@ impl Stage {
 
 impl Repair<'_> {
     fn rest<'b>(&'b self, held: &'b [bool], weight: Weight) -> Rest<'b> {
-        Rest { graph: &self.domain.graph, metric: self.metric, weight, held }
+        Rest { graph: &self.setup.domain.graph, metric: self.metric, weight, held }
     }
 
     /// MIPS as the mean over the faces, whatever their areas, times `unit`: that is what the mean of σ1/σ2 sees. Weighted by area the faces
@@ -204,12 +130,12 @@ impl Repair<'_> {
     }
 
     fn objective(&self, terms: Terms, freedoms: Freedoms) -> Objective {
-        Objective { terms, freedoms, norm: Dirichlet::new(&self.domain.graph, Weight::Integral) }
+        Objective { terms, freedoms, norm: Dirichlet::new(&self.setup.domain.graph, Weight::Integral) }
     }
 
     /// Goes on from `stage`, by as many iterations as are left.
     fn minimise(&self, objective: &Objective, stage: Stage, watch: &mut dyn Observer) -> Result<Stage, MapError> {
-        self.minimise_within(PATIENCE.with(self.domain.disc.faces.len()), objective, stage, watch)
+        self.minimise_within(PATIENCE.with(self.setup.domain.disc.faces.len()), objective, stage, watch)
     }
 
     /// The same by so many iterations at most.
@@ -220,12 +146,12 @@ impl Repair<'_> {
         stage: Stage,
         watch: &mut dyn Observer,
     ) -> Result<Stage, MapError> {
-        minimise(objective, stage, Limits { left: self.left, most, gain: self.options.tolerance }, watch)
+        minimise(objective, stage, Limits { left: self.left, most, gain: self.setup.options.tolerance }, watch)
     }
 
     /// Whether the exact check accepts the map that a stage has reached.
     fn accepts(&self, stage: &Stage) -> bool {
-        accepts(self.options, &self.domain.validity(&stage.z))
+        self.setup.accepts(&stage.z)
     }
 
     /// The map that a stage has reached.
@@ -234,9 +160,9 @@ impl Repair<'_> {
             total: stage.total,
             gradient_norm: stage.gradient_norm,
             energies: stage.energies,
-            outcome: Outcome::Minimised(stage.status),
+            ending: Ending::Minimised(stage.status),
             iterations: stage.iterations,
-            ..Map::solved(BACKEND, stage.z, fixed, None)
+            ..Map::solved(SOLVER, stage.z, fixed, None)
         }
     }
 }

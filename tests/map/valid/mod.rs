@@ -8,7 +8,7 @@ use crate::common::*;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, Mapped, Outcome, Valid, run};
+use riemap::map::{Boundary, Ending, MapOptions, Mapped, Valid, run};
 use riemap::solver::{Silent, Status};
 use riemap::surface::Surface;
 use shapes::*;
@@ -27,7 +27,7 @@ fn hard_shapes_have_valid_maps_circle_and_free() {
     let mut replaced = 0;
     for (what, s) in &shapes {
         assert_valid(s, what);
-        replaced += usize::from(mapped(s.clone(), &MapOptions::default(), what).map.repaired);
+        replaced += usize::from(mapped(s.clone(), &MapOptions::default(), what).map.provenance.is_repaired());
     }
     assert!(replaced >= 3, "hard shapes that are not hard: {replaced} replaced");
 }
@@ -41,8 +41,8 @@ fn a_plain_map_that_is_valid_is_kept_bit_for_bit() {
                 run(&Input::open(name).unwrap(), &options, &mut Silent).unwrap().map
             };
             let (plain, kept) = (of(Valid::Off), of(Valid::Auto));
-            assert_eq!((plain.z, plain.backend), (kept.z, kept.backend), "{name} {boundary:?}");
-            assert!(!kept.repaired && kept.plain_folded.is_none());
+            assert_eq!((plain.z, plain.provenance), (kept.z, kept.provenance), "{name} {boundary:?}");
+            assert!(kept.provenance.replaced.is_none());
         }
     }
 }
@@ -67,8 +67,8 @@ fn what_takes_the_place_of_a_map_that_folds_has_no_more_shear_than_the_harmonic_
         // All vertices of the comb are on the boundary, where double precision leaves them no way to go: there the two are one map.
         let most = (1.0 + 1e-12) * shear(&harmonic);
         assert!(shear(&least) <= most, "{what}");
-        assert!(!ours.map.repaired || shear(&ours) <= most, "{what}");
-        if ours.map.repaired {
+        assert!(!ours.map.provenance.is_repaired() || shear(&ours) <= most, "{what}");
+        if ours.map.provenance.is_repaired() {
             assert_eq!(ours.map.z, least.map.z, "{what}");
         }
     }
@@ -85,9 +85,17 @@ fn best_qc_takes_the_better_of_the_plain_map_and_the_valid_one() {
         let [plain, least] = [Valid::Auto, Valid::BestQc].map(|valid| of(obtuse, boundary, valid));
         assert!(shear(&least) < 0.99 * shear(&plain), "{boundary:?}: {} {}", shear(&plain), shear(&least));
         // Nothing was amiss.
-        assert!(!plain.map.repaired && !least.map.repaired && least.validity.is_one_to_one());
+        assert!(
+            !plain.map.provenance.is_repaired()
+                && !least.map.provenance.is_repaired()
+                && least.validity.is_one_to_one()
+        );
         let [plain, least] = [Valid::Auto, Valid::BestQc].map(|valid| of("enneper?n=12&mesh=quad", boundary, valid));
-        assert_eq!((plain.map.z, plain.map.backend), (least.map.z, least.map.backend), "{boundary:?}");
+        assert_eq!(
+            (plain.map.z, plain.map.provenance.to_string()),
+            (least.map.z, least.map.provenance.to_string()),
+            "{boundary:?}"
+        );
     }
 }
 
@@ -106,7 +114,7 @@ fn a_map_that_is_interrupted_or_cut_short_is_valid_at_any_time() {
             let apart = MapOptions { valid: Valid::OneToOne, ..limited_options.clone() };
             assert!(mapped(s.clone(), &apart, "rough").validity.is_one_to_one(), "{boundary:?} limited to {n}");
             if n < 5 {
-                assert_eq!(limited.map.outcome, Outcome::Minimised(Status::MaxIterations));
+                assert_eq!(limited.map.ending, Ending::Minimised(Status::MaxIterations));
             }
         }
     }

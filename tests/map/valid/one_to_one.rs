@@ -39,7 +39,7 @@ fn free_maps_that_overlap_are_replaced_by_maps_that_do_not_where_that_is_asked_f
         // What is one-to-one already stays.
         let same = may.map.z == must_not.map.z;
         assert_eq!(same, may.validity.is_one_to_one(), "{what}");
-        assert_eq!(must_not.map.repaired, !same || may.map.repaired, "{what}");
+        assert_eq!(must_not.map.provenance.is_repaired(), !same || may.map.provenance.is_repaired(), "{what}");
         kept += usize::from(same);
     }
     assert!(kept < shapes.len() - 1, "shapes that do not overlap: {kept}");

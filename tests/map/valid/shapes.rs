@@ -105,10 +105,10 @@ pub fn mapped(s: Surface, options: &MapOptions, what: &str) -> Mapped {
 pub fn shows(what: &str, mapped: &Mapped) {
     println!(
         "{what}: {} {} after {}, folded before {:?}, σ1/σ2 {:?}",
-        mapped.map.backend,
-        mapped.map.outcome.name(),
+        mapped.map.provenance,
+        mapped.map.ending.name(),
         mapped.map.iterations,
-        mapped.map.plain_folded,
+        mapped.map.provenance.flipped(),
         mapped.distortion.quasi_conformal.map(|e| e.mean)
     );
 }

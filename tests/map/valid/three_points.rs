@@ -63,8 +63,8 @@ fn maps_that_replace_folded_ones_have_the_three_points_and_converge_to_the_exact
             (z.re - x).powi(2) + (z.im - y).powi(2)
         });
         let rms = (squares.sum::<f64>() / source.len() as f64).sqrt();
-        println!("n = {n}: rms {rms:.2e}, repaired {}", mapped.map.repaired);
-        (rms, mapped.map.repaired)
+        println!("n = {n}: rms {rms:.2e}, repaired {}", mapped.map.provenance.is_repaired());
+        (rms, mapped.map.provenance.is_repaired())
     };
     let errors = [16, 32, 64].map(|n| error(n, &mut random));
     // Thin triangles fold the plain maps.
@@ -77,7 +77,7 @@ fn maps_that_replace_folded_ones_have_the_three_points_and_converge_to_the_exact
 fn where_three_points_are_too_much_for_doubles_one_is_held() {
     let spiral = Input::open("spiral?rounds=6&n=2&mesh=triangle").unwrap();
     let map = run(&spiral, &MapOptions::default(), &mut Silent).unwrap();
-    assert!(map.validity.is_one_to_one() && map.map.repaired);
+    assert!(map.validity.is_one_to_one() && map.map.provenance.is_repaired());
     assert_eq!(map.map.fixed.len(), 1);
 }
 
@@ -87,7 +87,7 @@ fn two_points_are_met_too_where_two_are_asked_for() {
     for (fix, valid) in [(2, Valid::Auto), (3, Valid::Auto), (2, Valid::BestQc), (3, Valid::BestQc)] {
         let of = |valid| mapped(s.clone(), &MapOptions { fix, valid, ..MapOptions::default() }, "rough");
         let (plain, repaired) = (of(Valid::Off), of(valid));
-        assert!(repaired.map.repaired && repaired.validity.is_one_to_one());
+        assert!(repaired.map.provenance.is_repaired() && repaired.validity.is_one_to_one());
         assert_eq!(repaired.map.fixed, plain.map.fixed, "{fix} {valid:?}");
         for (v, place) in plain.map.fixed.iter() {
             assert_eq!(repaired.map.z[v as usize], place, "{fix} {valid:?}");

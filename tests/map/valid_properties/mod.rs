@@ -45,7 +45,7 @@ fn check(seed: u64, size: usize, topology: Topology, shape: Shape, quads: bool) 
     for boundary in [Boundary::Circle, Boundary::Free] {
         let mapped = mapped(&s, boundary, surrogate, &what)
             .map_err(|error| TestCaseError::fail(format!("{what}, {boundary:?}: {error}")))?;
-        let in_order = !mapped.map.repaired || mapped.distortion.boundary_out_of_order == Some(0);
+        let in_order = !mapped.map.provenance.is_repaired() || mapped.distortion.boundary_out_of_order == Some(0);
         let fine = match boundary {
             Boundary::Circle => mapped.validity.is_one_to_one() && in_order,
             _ => mapped.validity.is_locally_one_to_one(),

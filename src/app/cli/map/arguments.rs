@@ -219,7 +219,7 @@ pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped
             "--tiling has no effect on .glb: its checkerboard has the periods already",
         ),
     ];
-    let of_valid = valid_without_effect(arguments, options, mapped.map.repaired);
+    let of_valid = valid_without_effect(arguments, options, mapped.map.provenance.is_repaired());
     idle.into_iter().chain(of_valid).filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()
 }
 

@@ -11,7 +11,7 @@ use anyhow::{Context, Result, bail};
 
 use crate::app::measure::stopwatch::Stopwatch;
 use crate::map::periodic::Tiling;
-use crate::map::{self, Outcome};
+use crate::map::{self, Ending};
 use crate::report::Report;
 use crate::solver::Status;
 
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
             writeln!(out, "wrote {}", path.display())?;
         }
     }
-    if mapped.map.outcome == Outcome::Minimised(Status::Interrupted) {
+    if mapped.map.ending == Ending::Minimised(Status::Interrupted) {
         bail!("interrupted; the best map so far was written");
     }
     Ok(())

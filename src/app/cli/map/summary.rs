@@ -3,7 +3,7 @@ use std::io::Write;
 use anyhow::Result;
 
 use crate::io::LengthUnit;
-use crate::map::{Boundary, MapOptions, Mapped, Outcome, Valid};
+use crate::map::{Boundary, Ending, MapOptions, Mapped, Replacement, Valid};
 use crate::report::{EnergyRecord, Report};
 use crate::solver::Status;
 
@@ -20,18 +20,18 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
             map.smallest_singular_value.unwrap_or_default()
         );
     }
-    match map.outcome {
-        Outcome::Minimised(Status::MaxIterations) => {
+    match map.ending {
+        Ending::Minimised(Status::MaxIterations) => {
             eprintln!(
                 "riemap: warning: not converged after {} iterations; the map is the best reached{}",
                 map.iterations,
                 crowding(mapped).map(|why| format!(": {why}")).unwrap_or_default()
             );
         }
-        Outcome::Minimised(Status::Interrupted) => {
+        Ending::Minimised(Status::Interrupted) => {
             eprintln!("riemap: warning: interrupted after {} iterations; the map is the best reached", map.iterations);
         }
-        Outcome::Minimised(status) if map.repaired => {
+        Ending::Minimised(status) if map.provenance.is_repaired() => {
             let at_the_end = distortion.smallest_scale.is_some_and(|scale| scale < END_OF_DOUBLES);
             if let Some(why) = crowding(mapped).filter(|_| at_the_end || status == Status::Precision) {
                 eprintln!("riemap: warning: rounding keeps the map from coming nearer to the conformal one: {why}");
@@ -39,8 +39,8 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         }
         _ => {}
     }
-    if map.repaired && options.weights.is_none() {
-        let was = match map.plain_folded {
+    if map.provenance.is_repaired() && options.weights.is_none() {
+        let was = match map.provenance.flipped() {
             None => "did not converge".to_owned(),
             Some(0) => "had a boundary that crosses itself".to_owned(),
             Some(n) => format!("had {}", plural(n, "folded face", "folded faces")),
@@ -49,13 +49,13 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
             "riemap: note: the plain map {was}, and a valid one is in its place (--valid off keeps the plain one)"
         );
     }
-    if let Some(shear) = map.plain_shear {
+    if let Some(Replacement::LessDistorted { mean: shear }) = map.provenance.replaced.map(|replaced| replaced.by) {
         eprintln!(
             "riemap: note: the plain map had σ₁/σ₂ {shear:.3} in the mean, and one of less shear is in its place (--valid off keeps the \
              plain one)"
         );
     }
-    if map.repaired && map.on_circle && options.weights.is_none() && map.fixed.len() < options.fix {
+    if map.provenance.is_repaired() && map.on_circle && options.weights.is_none() && map.fixed.len() < options.fix {
         eprintln!(
             "riemap: note: one boundary point is where it was to be, and not {}: a map with these in their places has parts that \
              are too small for double precision",
@@ -65,14 +65,14 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
     let mut help: Vec<&str> = Vec::new();
     help.extend(mapped.domain.is_of_triangles().then_some("another --dual"));
     help.extend(mapped.domain.planes.is_some().then_some("other --normals"));
-    match map.outcome {
-        Outcome::Solved if mapped.torus.is_some() => {}
-        Outcome::Solved => help.push("another --shape"),
-        Outcome::Minimised(_) if map.on_circle => {
+    match map.ending {
+        Ending::Solved if mapped.torus.is_some() => {}
+        Ending::Solved => help.push("another --shape"),
+        Ending::Minimised(_) if map.on_circle => {
             help.extend((!options.keep_order).then_some("--keep-order"));
             help.push("--boundary free");
         }
-        Outcome::Minimised(_) => {
+        Ending::Minimised(_) => {
             let may_overlap = options.boundary == Boundary::Free && options.promises_valid();
             help.extend((may_overlap && options.valid != Valid::OneToOne).then_some("--valid one-to-one"));
             help.push("--boundary circle");

@@ -1,9 +1,29 @@
-use super::{Map, MapError, MapOptions};
+//! Linear problems: H alone, with the boundary fixed.
+
+use super::{Attempt, Unsuitable};
 use crate::constraint::Fixed;
 use crate::energy::conformal;
+use crate::map::setup::Setup;
+use crate::map::{Boundary, Map, MapError, MapOptions};
 use crate::problem::linear::LinearProblem;
 use crate::quad_graph::QuadGraph;
 use crate::solver::{Observer, solve_linear};
+
+/// The map of lowest H whose boundary is fixed.
+///
+/// # Errors
+/// H alone with a free boundary; constraints that do not suffice; a solver that does not suit or fails.
+pub(in crate::map) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, MapError> {
+    let Setup { options, domain, expression, .. } = setup;
+    if !expression.rows().all(|row| row.name == "H") {
+        return Ok(Attempt::Unsuitable(Unsuitable::Request("the energy is not H alone")));
+    }
+    if options.boundary != Boundary::Fixed {
+        return Err(MapError::FreeBoundary);
+    }
+    let fixed = options.fixed(&domain.disc, &domain.graph)?;
+    options.solve(&domain.graph, fixed, watch).map(Attempt::solved)
+}
 
 impl MapOptions {
     /// The map that minimises H over those that hold `fixed`.

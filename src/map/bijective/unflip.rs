@@ -7,20 +7,19 @@ use num_complex::Complex64;
 
 use super::in_order::put_in_order;
 use super::patch::{FacesAt, Patch};
-use super::{Limits, Stage, accepts, middle_of_arc, minimise};
+use super::{Limits, SOLVER, Stage, middle_of_arc, minimise};
 use crate::constraint::Freedoms;
 use crate::distortion::{Image, face_maps};
 use crate::energy::conformal::{self, Dirichlet, Weight};
 use crate::energy::{Conformal, Energy, Gaps, Metric, Mips, Unfolding};
-use crate::map::reduced::{circle_energy, length_energy};
-use crate::map::{Boundary, Domain, Exactly, Map, MapError, MapOptions, Outcome, Valid};
+use crate::map::boundary_energy::{circle_energy, length_energy};
+use crate::map::provenance::Provenance;
+use crate::map::setup::Setup;
+use crate::map::{Boundary, Domain, Ending, Exactly, Map, MapError, MapOptions, Valid};
 use crate::problem::nonlinear::{Objective, Terms};
 use crate::quad_graph::triangles_of_face;
 use crate::solver::{Observer, Status};
 use crate::surface::UnionFind;
-
-/// The name of the backend in reports.
-const BACKEND: &str = "newton (near folds)";
 
 /// The share of MIPS beside H, both measured on a disc of area π. The less it is, the nearer the map is to the plain one: on 10⁴ jittered
 /// quads whose corners are opened to half a turn the mean of σ1/σ2 is 1.0357, 1.0260, 1.0149 and the largest 7.25, 7.32, 7.26 at shares of
@@ -61,13 +60,13 @@ const MOST_AT_LAST: usize = 100;
 const GAIN_ON_THE_WAY: f64 = 1e-2;
 
 /// The map `plain` without folds, where it can be had by moving vertices around these; beside it the iterations made.
-pub(super) fn near_folds(
-    options: &MapOptions,
-    domain: &Domain,
+pub(super) fn around_flipped(
+    setup: &Setup,
     plain: &Map,
     left: Option<usize>,
     watch: &mut dyn Observer,
 ) -> Result<(Option<Map>, usize), MapError> {
+    let Setup { options, domain, .. } = *setup;
     if !matches!(options.valid, Valid::Auto | Valid::OneToOne) {
         return Ok((None, 0));
     }
@@ -114,7 +113,7 @@ pub(super) fn near_folds(
             break;
         }
     }
-    if !accepts(options, &domain.validity(&z)) || shear(domain, &z).1 > LARGEST_SHEAR {
+    if !setup.accepts(&z) || shear(domain, &z).1 > LARGEST_SHEAR {
         return Ok((None, spent));
     }
     let graph = &domain.graph;
@@ -129,8 +128,8 @@ pub(super) fn near_folds(
         total: Some(h + other),
         energies: vec![("H", h), (name, other)],
         gradient_norm: Some(squares.sqrt()),
-        backend: BACKEND,
-        outcome: Outcome::Minimised(status),
+        provenance: Provenance { solver: SOLVER, ..plain.provenance },
+        ending: Ending::Minimised(status),
         iterations: spent,
         residual: None,
         smallest_singular_value: None,

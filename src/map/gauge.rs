@@ -1,0 +1,58 @@
+//! What is held while an energy is minimised.
+
+use num_complex::Complex64;
+
+use super::options::hold_pins;
+use super::setup::Setup;
+use super::{Boundary, MapError};
+use crate::constraint::{Fixed, hold_gauge, spread_points};
+use crate::energy::Expression;
+use crate::quad_graph::QuadGraph;
+
+/// What is held while the energy is minimised (design: the table of §3), at the places of `z`.
+///
+/// # Errors
+/// Pins that are not in use; a shape that the boundary is too short for.
+pub(super) fn held(setup: &Setup, z: &[Complex64]) -> Result<Fixed, MapError> {
+    let Setup { options, domain, expression, normalisation } = setup;
+    let (disc, graph) = (&domain.disc, &domain.graph);
+    if options.boundary == Boundary::Fixed {
+        return options.fixed(disc, graph);
+    }
+    let mut fixed = Fixed::default();
+    hold_pins(&mut fixed, disc, &options.pins)?;
+    let metric = expression.rows().any(|row| row.metric);
+    if !fixed.is_empty() {
+        return Ok(fixed);
+    }
+    match (expression.has("C"), metric) {
+        (true, false) => return Ok(normalisation.fixed(graph)),
+        (true, true) => {
+            let first = graph.boundary[0];
+            fixed.hold_on_line(first, Complex64::ZERO, z[first as usize]);
+        }
+        (false, _) if expression.is_flip_free() && !["A", "L", "Lb"].iter().any(|name| expression.has(name)) => {
+            hold_mesh_gauge(&mut fixed, expression, graph, z);
+        }
+        (false, _) => hold_gauge(&mut fixed, expression, graph, z),
+    }
+    Ok(fixed)
+}
+
+/// Holds what rigid motions leave free where no other gauge does (energies of lengths), or similarities (of angles alone): the first
+/// boundary vertex and the direction to the next one of the mesh, or two boundary vertices opposite each other.
+pub(super) fn hold_mesh_gauge(fixed: &mut Fixed, expression: &Expression, graph: &QuadGraph, z: &[Complex64]) {
+    let at = |v: u32| z[v as usize];
+    if expression.rows().any(|row| row.metric) {
+        let mut mesh = graph.boundary.iter().copied().filter(|&v| !graph.is_dual(v));
+        if let (Some(first), Some(next)) = (mesh.next(), mesh.next()) {
+            fixed.hold(first, at(first));
+            // From where the vertex is: then it stays there exactly.
+            fixed.hold_on_line(next, at(next), at(next) + (at(next) - at(first)));
+        }
+    } else {
+        for k in spread_points(graph, 2) {
+            fixed.hold(graph.boundary[k], at(graph.boundary[k]));
+        }
+    }
+}

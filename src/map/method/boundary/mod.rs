@@ -1,0 +1,84 @@
+//! Newton's method on the boundary values alone: circle maps and free maps with integral weights.
+
+mod circle;
+mod free;
+
+pub(in crate::map) use free::start as free_start;
+
+use super::{Attempt, Unsuitable};
+use crate::energy::Expression;
+use crate::energy::conformal::Weight;
+use crate::map::setup::Setup;
+use crate::map::{Boundary, MapError, MapOptions};
+use crate::solver::boundary::{self, Reduction, Unreduced};
+use crate::solver::{Observer, Phase};
+
+/// The map whose boundary is exactly on the unit circle, or has exactly the given lengths, of lowest H.
+///
+/// # Errors
+/// Pins that are not in use.
+pub(in crate::map) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, MapError> {
+    let options = setup.options;
+    if !is_asked(options) && options.solver != "auto" {
+        return Ok(Attempt::Unsuitable(Unsuitable::NotAsked));
+    }
+    let problem = match BoundaryProblem::of(options, &setup.expression) {
+        Ok(problem) => problem,
+        Err(reason) => return Ok(Attempt::Unsuitable(Unsuitable::Request(reason))),
+    };
+    match problem {
+        BoundaryProblem::Circle => circle::solve(setup, watch),
+        BoundaryProblem::Free => free::solve(setup, watch),
+    }
+}
+
+/// Whether the user has named this method's solver.
+pub(in crate::map) fn is_asked(options: &MapOptions) -> bool {
+    options.solver == boundary::NAME
+}
+
+/// The reduced operator of the problem's quad graph.
+fn reduction<'a>(setup: &Setup<'a>, watch: &mut dyn Observer) -> Result<Reduction<'a>, Unreduced> {
+    watch.phase(Phase::Assemble);
+    let reduction = Reduction::new(&setup.domain.graph, || watch.phase(Phase::Factor))?;
+    watch.phase(Phase::Solve);
+    Ok(reduction)
+}
+
+/// The problems that reduce to the boundary.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum BoundaryProblem {
+    /// H with the boundary on the unit circle, the limit of H + βC.
+    Circle,
+    /// H with the boundary edges of their rest lengths, the limit of H + γ'L'.
+    Free,
+}
+
+impl BoundaryProblem {
+    /// The problem that is asked, or why it is none of these.
+    fn of(options: &MapOptions, expression: &Expression) -> Result<Self, &'static str> {
+        if options.weight != Weight::Integral {
+            return Err("it needs integral weights");
+        }
+        if options.boundary == Boundary::Fixed {
+            return Err("the whole boundary is held");
+        }
+        let is =
+            |names: &[&str]| expression.rows().count() == names.len() && names.iter().all(|name| expression.has(name));
+        // Other coefficients ask for a compromise between the terms, which this is not.
+        let even = expression.terms.iter().all(|term| term.coefficient == 1.0);
+        match () {
+            () if !even && !is_asked(options) => Err("the coefficients are not 1"),
+            () if is(&["H", "C"]) => Ok(BoundaryProblem::Circle),
+            () if is(&["H", "Lb"]) && options.pins.is_empty() => Ok(BoundaryProblem::Free),
+            () if is(&["H", "Lb"]) => Err("vertices of a free map are held"),
+            () => Err("the energy is neither H + C nor H + Lb"),
+        }
+    }
+}
+
+/// The energies with their coefficients.
+fn total(expression: &Expression, energies: &[(&'static str, f64)]) -> f64 {
+    let value = |name: &str| energies.iter().find(|(n, _)| *n == name).map_or(0.0, |(_, value)| *value);
+    expression.terms.iter().map(|term| term.coefficient * value(term.name)).sum()
+}
