@@ -197,8 +197,11 @@ pub struct SolverRecord {
     pub peak_bytes: Option<u64>,
     /// Smallest singular value of the Jacobian, of nonlinear problems.
     pub smallest_singular_value: Option<f64>,
-    /// `circle`, `lengths`: what the boundary meets exactly, H the lowest under it; none: the energy's minimum.
+    /// `conformal`: (2) holds on every quad; `circle`, `lengths`: the boundary is on the circle, has its lengths, and H is the
+    /// lowest under that; none: the energy's minimum.
     pub exactly: Option<Exactly>,
+    /// Circle maps that are exactly conformal: ε of the two circles of the boundary, `|z|² = 1 ± ε`.
+    pub epsilon: Option<f64>,
 }
 
 /// What a run took.
@@ -353,6 +356,7 @@ impl SolverRecord {
             peak_bytes: cost.peak_bytes,
             smallest_singular_value: map.smallest_singular_value,
             exactly: map.exactly,
+            epsilon: map.epsilon,
         }
     }
 }

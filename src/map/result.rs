@@ -31,6 +31,8 @@ impl Ending {
 pub enum Exactly {
     /// The boundary is on the unit circle.
     Circle,
+    /// (2) on every quad.
+    Conformal,
     /// The boundary edges have their rest lengths.
     Lengths,
 }
@@ -62,8 +64,11 @@ pub struct Map {
     pub on_circle: bool,
     /// Whether the held points are where the exact map of the surface has them.
     pub anchored: bool,
-    /// What was solved for exactly, with H the lowest under it; `None`: the energy's minimum.
+    /// What was solved for exactly; `None`: the energy's minimum.
     pub exactly: Option<Exactly>,
+    /// Circle maps with H = 0: half the difference ε of the squared radii, `|b|² = 1 + ε` on black and `|w|² = 1 − ε` on white
+    /// boundary points before the map is scaled.
+    pub epsilon: Option<f64>,
 }
 
 impl Map {
@@ -83,6 +88,7 @@ impl Map {
             on_circle: false,
             anchored: false,
             exactly: None,
+            epsilon: None,
         }
     }
 }

@@ -11,10 +11,7 @@ use crate::constraint::ConstraintError;
 use crate::distortion::mesh_boundary;
 use crate::geometry::polygon::out_of_order;
 use crate::solver::Observer;
-
-/// Circle maps of larger quad graphs keep a boundary that is out of order, unless order is asked for: the factor of the minimiser takes
-/// eight times the memory.
-const MOST_FOR_MINIMISER: usize = 300_000;
+use crate::solver::boundary::{TwoCirclesError, Unreduced};
 
 /// The map of a domain. `exact` are exact conformal coordinates, one per vertex of the source.
 pub(super) fn solve(
@@ -53,19 +50,14 @@ fn conformal(setup: &Setup, watch: &mut dyn Observer) -> Result<Map, MapError> {
     let options = setup.options;
     let (after, start) = match boundary::solve(setup, watch)? {
         Attempt::Solved(map) if !is_to_be_ordered(setup, &map) => return Ok(*map),
-        // Staircases: E = H + C, which draws the boundary towards the circle but not onto it, distorts the faces there far less
-        // (inspired_mesh: 1.13 against 298). An injective map that is as near to conformal spares the minimiser.
-        Attempt::Solved(map) => {
-            if options.promises_valid()
-                && !options.keep_order
-                && let Some(map) = bijective::unflipped(setup, &map, watch)?.0
-            {
-                return Ok(map);
-            }
-            (Some(Setback::OutOfOrder), None)
-        }
+        Attempt::Solved(_) => (Some(Setback::OutOfOrder), None),
         Attempt::Unsuitable(reason) if boundary::is_asked(options) => return Err(reason.into()),
-        Attempt::Failed { reason, .. } if boundary::is_asked(options) => return Err(reason),
+        // A minimiser would not come further, and a bijective map replaces this one anyway.
+        Attempt::Failed { reason, .. }
+            if boundary::is_asked(options) || (setup.is_circle() && options.promises_valid()) =>
+        {
+            return Err(reason);
+        }
         Attempt::Unsuitable(_) => (None, None),
         Attempt::Failed { iterations, start, .. } => (Some(Setback::Stalled { iterations }), start),
     };
@@ -96,7 +88,10 @@ fn injective(setup: &Setup, conformal: Result<Map, MapError>, watch: &mut dyn Ob
                 (None, spent) => (None, Some(setup.domain.folded(&map.z).len()), spent),
             },
         },
-        Err(MapError::NotConverged { iterations, .. }) => (None, None, iterations),
+        Err(
+            MapError::NotConverged { iterations, .. }
+            | MapError::Reduced(Unreduced::TwoCircles(TwoCirclesError::Stalled { iterations, .. })),
+        ) => (None, None, iterations),
         // A start, or a matrix, beyond the range of doubles: others may be within.
         Err(MapError::Minimise(_) | MapError::Constraint(ConstraintError::NoArcLength(..))) => (None, None, 0),
         Err(MapError::Solve(ref error)) if error.is_of_rounding() => (None, None, 0),
@@ -116,10 +111,7 @@ fn injective(setup: &Setup, conformal: Result<Map, MapError>, watch: &mut dyn Ob
     })
 }
 
-/// Whether the boundary of a circle map is out of order and a minimiser may do better.
+/// Whether the boundary of a circle map is to be in order and is not.
 fn is_to_be_ordered(setup: &Setup, map: &Map) -> bool {
-    let Setup { options, domain, .. } = setup;
-    let is_allowed =
-        !boundary::is_asked(options) && (options.keep_order || domain.graph.vertices <= MOST_FOR_MINIMISER);
-    map.on_circle && is_allowed && out_of_order(&mesh_boundary(&domain.graph, &map.z)) > 0
+    setup.options.keep_order && map.on_circle && out_of_order(&mesh_boundary(&setup.domain.graph, &map.z)) > 0
 }

@@ -15,3 +15,4 @@ mod laplacian;
 mod minimisers;
 mod reduced;
 mod starts;
+mod two_circles;

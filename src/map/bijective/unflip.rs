@@ -72,7 +72,7 @@ pub(super) fn around_flipped(
     }
     let count = domain.disc.faces.len() as f64;
     // Boundary points that are only drawn to the circle have no place to slide on.
-    if options.boundary == Boundary::Circle && plain.exactly != Some(Exactly::Circle) {
+    if options.boundary == Boundary::Circle && !matches!(plain.exactly, Some(Exactly::Circle | Exactly::Conformal)) {
         return Ok((None, 0));
     }
     let (sheared, mean) = shear(domain, &plain.z);
@@ -119,7 +119,7 @@ pub(super) fn around_flipped(
     let graph = &domain.graph;
     let h = conformal::value(graph, &conformal::weights(graph, options.weight)?, &z);
     let (name, other, exactly) = match options.boundary {
-        Boundary::Circle => ("C", circle_energy(graph, &plain.fixed, &z), plain.exactly),
+        Boundary::Circle => ("C", circle_energy(graph, &plain.fixed, &z), Some(Exactly::Circle)),
         // Boundary edges that have moved may have other lengths.
         _ => ("Lb", length_energy(graph, &z), None),
     };
@@ -134,6 +134,7 @@ pub(super) fn around_flipped(
         residual: None,
         smallest_singular_value: None,
         exactly,
+        epsilon: None,
         ..plain.clone()
     };
     Ok((Some(map), spent))

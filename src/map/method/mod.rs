@@ -15,7 +15,7 @@ pub(super) mod minimise;
 use num_complex::Complex64;
 
 use super::{Map, MapError};
-use crate::solver::boundary::Unreduced;
+use crate::solver::boundary::{TwoCirclesError, Unreduced};
 
 /// How far a method came.
 pub(super) enum Attempt {
@@ -42,7 +42,11 @@ impl Attempt {
 
     /// No convergence.
     fn failed(reason: Unreduced, start: Option<Vec<Complex64>>) -> Self {
-        let iterations = if let Unreduced::Stalled { iterations, .. } = reason { iterations } else { 0 };
+        let iterations = match reason {
+            Unreduced::Stalled { iterations, .. }
+            | Unreduced::TwoCircles(TwoCirclesError::Stalled { iterations, .. }) => iterations,
+            _ => 0,
+        };
         Attempt::Failed { reason: reason.into(), iterations, start }
     }
 

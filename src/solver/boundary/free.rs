@@ -2,9 +2,9 @@
 
 use num_complex::Complex64;
 
-use super::cg::norm;
 use super::conjugate::{hil, project};
 use super::gmres::gmres;
+use super::norm::norm;
 use super::turning::start;
 use super::{Reduction, Unreduced};
 use crate::solver::{Iteration, Observer, Status};

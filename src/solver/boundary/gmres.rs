@@ -1,4 +1,4 @@
-use super::cg::{dot, norm};
+use super::norm::{dot, norm};
 
 /// Solves `A x = b` to `|b − A x| ≤ tolerance |b|` by GMRES without restart, at most `longest` products. Returns x, the
 /// relative residual, and the number of products.

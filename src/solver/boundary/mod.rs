@@ -1,32 +1,27 @@
-//! Circle maps and length-preserving free maps on the boundary alone.
+//! Conformal maps by Newton's method on the boundary values alone, the interior eliminated by one factorisation.
 //!
-//! With integral weights the interior is eliminated by one real factorisation ([`Reduction`]); what remains are nb unknowns
-//! on the boundary, and each product with the reduced operator costs a part of one solve.
-//!
-//! - [`circle_map`]: the boundary exactly *on* the unit circle, H the lowest. H + βC only pulls it there: its minimum comes to
-//!   this one as β grows, and is the same where H + C can vanish.
-//! - [`free_map`]: the boundary edges *exactly* of given lengths. H + γ'L' comes to this as γ' grows, and is the same where it
-//!   can vanish.
+//! - [`two_circle_map`]: circle maps with H = 0, black and white boundary points on two concentric circles, over the
+//!   [conformal Laplacian](crate::laplacian).
+//! - [`free_map`]: the boundary edges of the quad graph *exactly* of given lengths, H the lowest. H + γ'L' comes to this as γ'
+//!   grows, and is the same where it can vanish.
 
 mod angles;
-mod barrier;
-mod cg;
-mod circle;
 mod conjugate;
 mod free;
 mod gmres;
-mod green;
+mod norm;
 mod operator;
-mod precondition;
-mod spectrum;
-mod start;
 mod turning;
+mod two_circles;
 
-pub use circle::{CircleMap, CircleProblem, circle_map};
 pub use free::{FreeMap, FreeProblem, FreeStalled, free_map};
 pub use operator::Reduction;
+pub use two_circles::{
+    CirclePin, Linearised, TwoCircleMap, TwoCirclesError, centred_pins, singular_values, two_circle_map,
+};
 
 use crate::energy::conformal::NonPositiveRho;
+use crate::laplacian::LaplacianError;
 use crate::sparse::Breakdown;
 
 /// Name for `--solver` and the report.
@@ -34,7 +29,7 @@ pub const NAME: &str = "reduced";
 
 /// One line for `riemap list`.
 pub const DESCRIPTION: &str =
-    "circle and free maps with integral weights: interior eliminated once, Newton on the boundary, exactly on it";
+    "exactly conformal circle maps, free maps of exact lengths: interior eliminated once, Newton on the boundary";
 
 /// A problem that the backend did not solve.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -56,6 +51,12 @@ pub enum Unreduced {
         /// Why.
         reason: Breakdown,
     },
+    /// No conformal Laplacian, or no factor of it.
+    #[error(transparent)]
+    Laplacian(#[from] LaplacianError),
+    /// No circle map.
+    #[error(transparent)]
+    TwoCircles(#[from] TwoCirclesError),
     /// No further progress, short of the tolerance.
     #[error(
         "backend `reduced` stalled after {iterations} iterations with a residual of {residual:.1e}: use \

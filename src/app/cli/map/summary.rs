@@ -136,6 +136,12 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     )?;
     let seconds = &solver.seconds;
     let how = match (solver.residual, solver.gradient_norm) {
+        (Some(residual), _) if solver.epsilon.is_some() => format!(
+            "{} after {}, boundary on two circles to {residual:.1e}, ε = {:.2e}",
+            solver.status,
+            plural(solver.iterations, "iteration", "iterations"),
+            solver.epsilon.unwrap_or_default()
+        ),
         (Some(residual), _) if solver.exactly.is_some() => format!(
             "{} after {}, lengths to {residual:.1e}",
             solver.status,

@@ -1,71 +1,124 @@
-//! The circle map: the boundary exactly on the unit circle, H the lowest.
+//! The circle map: H = 0 exactly, black and white boundary points on two concentric circles.
 
 use num_complex::Complex64;
 
-use super::{is_asked, reduction, total};
+use super::{is_asked, total};
 use crate::constraint::Fixed;
 use crate::energy::conformal::{self, Weight};
+use crate::laplacian::ConformalLaplacian;
 use crate::map::boundary_energy::circle_energy;
 use crate::map::method::{Attempt, Unsuitable};
 use crate::map::options::hold_pins;
 use crate::map::setup::Setup;
 use crate::map::{Domain, Ending, Exactly, Map, MapError};
-use crate::solver::boundary::{self, CircleProblem, circle_map};
-use crate::solver::{Observer, StopRule};
+use crate::quad_graph::QuadGraph;
+use crate::solver::boundary::{
+    self, CirclePin, Linearised, TwoCircleMap, TwoCirclesError, centred_pins, singular_values, two_circle_map,
+};
+use crate::solver::{Observer, Phase, StopRule};
 
-/// Minimises H with the boundary on the unit circle.
+/// Singular values are computed densely up to this many black boundary vertices.
+const MOST_FOR_SINGULAR_VALUES: usize = 100;
+
+/// Computes the map with H = 0 whose black and white boundary points lie on two circles.
 ///
 /// # Errors
 /// Pins that are not in use.
 pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, MapError> {
     let Setup { options, domain, expression, normalisation } = setup;
-    let Domain { graph, .. } = domain;
+    let graph = &domain.graph;
     let Some(pins) = pins(setup)? else {
         return Ok(Attempt::Unsuitable(Unsuitable::Request("a vertex inside is held")));
     };
-    let reduction = match reduction(setup, watch) {
-        Ok(reduction) => reduction,
-        Err(reason) => return Ok(Attempt::Unsuitable(Unsuitable::Matrix(reason))),
-    };
-    // Unless this solver was asked for, the order is left to the minimisers: they enforce it with far less distortion.
-    let keep_order = is_asked(options) && options.keep_order;
-    let rule = StopRule { tolerance: options.tolerance, reference: None, max_iterations: options.max_iterations };
-    let problem = CircleProblem { reduction: &reduction, pins: &pins, keep_order, rule };
-    let found = match circle_map(&problem, watch) {
-        Ok(found) => found,
-        Err(reason) => return Ok(Attempt::failed(reason, None)),
-    };
-    let mut fixed = Fixed::default();
-    for &(k, place) in &pins {
-        fixed.hold(graph.boundary[k], place);
+    if !(1..=3).contains(&pins.len()) {
+        return Ok(Attempt::Unsuitable(Unsuitable::Request("more than three boundary points are held")));
     }
-    let z = reduction.extend(&found.boundary);
-    drop(reduction);
-    let h = conformal::value(graph, &conformal::weights(graph, Weight::Integral)?, &z);
+    if is_asked(options) && options.keep_order {
+        return Ok(Attempt::Unsuitable(Unsuitable::Request("it does not keep the boundary in order")));
+    }
+    watch.phase(Phase::Assemble);
+    let laplacian = match ConformalLaplacian::new(graph, || watch.phase(Phase::Factor)) {
+        Ok(laplacian) => laplacian,
+        Err(error) => return Ok(Attempt::Unsuitable(Unsuitable::Matrix(error.into()))),
+    };
+    watch.phase(Phase::Solve);
+    let rule = StopRule { tolerance: options.tolerance, reference: None, max_iterations: options.max_iterations };
+    let mut found = two_circle_map(&laplacian, graph, &pins, rule, watch);
+    let mut anchored = normalisation.exact;
+    // Points at the angles of arc length may crowd long parts of the surface into short arcs. Where nobody asked for these points,
+    // others spread the map as evenly as it can be.
+    if let Err(TwoCirclesError::Stalled { .. }) = found
+        && options.pins.is_empty()
+        && let Some(centred) = centred_pins(&laplacian, graph)
+    {
+        found = two_circle_map(&laplacian, graph, &centred, rule, watch);
+        anchored = false;
+    }
+    let found = match found {
+        Ok(found) => found,
+        Err(reason) => return Ok(Attempt::failed(reason.into(), None)),
+    };
+    let smallest =
+        (laplacian.len() <= MOST_FOR_SINGULAR_VALUES).then(|| smallest_singular_value(setup, &laplacian, &found));
+    let z = image(&laplacian, graph, &found);
+    drop(laplacian);
+    let mut fixed = Fixed::default();
+    for pin in &found.pins {
+        let vertex = graph.boundary[pin.position];
+        fixed.hold(vertex, z[vertex as usize]);
+    }
+    // H of a map that obeys (2) is rounding, with any weights; they are undefined where some Re ρ ≤ 0.
+    let h = conformal::weights(graph, Weight::Integral).map_or(0.0, |weights| conformal::value(graph, &weights, &z));
     let energies = vec![("H", h), ("C", circle_energy(graph, &fixed, &z))];
     Ok(Attempt::solved(Map {
         total: Some(total(expression, &energies)),
         energies,
-        gradient_norm: Some(found.gradient_norm),
+        residual: Some(found.residual),
         ending: Ending::Minimised(found.status),
         iterations: found.iterations,
-        smallest_singular_value: found.smallest_singular_value,
+        smallest_singular_value: smallest.flatten(),
         on_circle: true,
-        anchored: normalisation.exact,
-        exactly: Some(Exactly::Circle),
+        anchored,
+        exactly: Some(Exactly::Conformal),
+        epsilon: Some(found.epsilon),
         ..Map::solved(boundary::NAME, z, fixed, None)
     }))
 }
 
-/// Boundary positions that are held, ascending, and where; `None` if a vertex inside is held.
-fn pins(setup: &Setup) -> Result<Option<Vec<(usize, Complex64)>>, MapError> {
+/// The map of all vertices. On triangle meshes it is divided by √(1 + ε), so that the boundary vertices of the mesh, which are black,
+/// are on the unit circle. On quad meshes both colours are vertices of the mesh, and neither is preferred.
+fn image(laplacian: &ConformalLaplacian, graph: &QuadGraph, found: &TwoCircleMap) -> Vec<Complex64> {
+    let mut z = laplacian.extend(graph, &found.b, found.w_0, &mut laplacian.work());
+    if graph.primal < graph.vertices {
+        let scale = 1.0 / (1.0 + found.epsilon).sqrt();
+        z.iter_mut().for_each(|z| *z *= scale);
+    }
+    z
+}
+
+/// The smallest singular value of the equations that determine the map: with ε and all three points, or of the original's with the two
+/// points that were asked for and without ε.
+fn smallest_singular_value(setup: &Setup, laplacian: &ConformalLaplacian, found: &TwoCircleMap) -> Option<f64> {
+    let two: Vec<CirclePin>;
+    let linearised = if setup.normalisation.points.len() == 2 {
+        two = setup.normalisation.points.iter().map(|&(position, angle)| CirclePin { position, angle }).collect();
+        Linearised { pins: &two, with_epsilon: false }
+    } else {
+        Linearised { pins: &found.pins, with_epsilon: true }
+    };
+    singular_values(laplacian, &setup.domain.graph, found, linearised).last().copied()
+}
+
+/// Boundary positions that are held, ascending, with their angles; `None` if a vertex inside is held.
+fn pins(setup: &Setup) -> Result<Option<Vec<CirclePin>>, MapError> {
     let Domain { disc, graph, .. } = setup.domain;
+    let points = setup.normalisation.points.iter();
+    let on_circle: Vec<CirclePin> = points.map(|&(position, angle)| CirclePin { position, angle }).collect();
     if setup.options.pins.is_empty() {
-        let points = setup.normalisation.points.iter();
-        return Ok(Some(points.map(|&(k, angle)| (k, Complex64::cis(angle))).collect()));
+        return Ok(Some(on_circle));
     }
     let mut fixed = Fixed::default();
     hold_pins(&mut fixed, disc, &setup.options.pins)?;
-    let held: Vec<_> = graph.boundary.iter().enumerate().filter_map(|(k, &v)| Some((k, fixed.place(v)?))).collect();
-    Ok((held.len() == fixed.len()).then_some(held))
+    let on_boundary = graph.boundary.iter().filter(|&&v| fixed.holds(v)).count();
+    Ok((on_boundary == fixed.len()).then_some(on_circle))
 }
