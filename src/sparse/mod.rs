@@ -13,5 +13,5 @@ pub use cholesky::{Analysis, Breakdown, Cholesky, Order};
 pub use dissection::dissect;
 pub(crate) use pattern::pairs_of;
 pub use pattern::{Columns, Pattern, Stencils};
-pub use pruned::{Columns2, PrunedCholesky};
+pub use pruned::{PrunedCholesky, SplitColumns};
 pub use symmetric::SymmetricFactor;

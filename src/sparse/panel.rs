@@ -4,7 +4,7 @@
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
-use super::Columns2;
+use super::SplitColumns;
 
 /// Columns that are taken together.
 const FORWARD: usize = 4;
@@ -41,8 +41,8 @@ impl<'a> Panel<'a> {
 
     /// L x = b in this supernode's rows, and b less what x makes in those below.
     #[inline(always)]
-    pub fn forward(&self, work: &mut Columns2) {
-        let Columns2 { re, im, below_re, below_im } = work;
+    pub fn forward(&self, work: &mut SplitColumns) {
+        let SplitColumns { re, im, below_re, below_im } = work;
         let (own_re, own_im) = (&mut re[self.own()], &mut im[self.own()]);
         let (sum_re, sum_im) = (&mut below_re[..self.rows.len()], &mut below_im[..self.rows.len()]);
         sum_re.fill(0.0);
@@ -80,8 +80,8 @@ impl<'a> Panel<'a> {
 
     /// Lᵀ x = b in this supernode's rows.
     #[inline(always)]
-    pub fn backward(&self, work: &mut Columns2) {
-        let Columns2 { re, im, below_re, below_im } = work;
+    pub fn backward(&self, work: &mut SplitColumns) {
+        let SplitColumns { re, im, below_re, below_im } = work;
         let (known_re, known_im) = (&mut below_re[..self.rows.len()], &mut below_im[..self.rows.len()]);
         for (i, &row) in self.rows.iter().enumerate() {
             (known_re[i], known_im[i]) = (re[row as usize], im[row as usize]);

@@ -22,11 +22,12 @@ pub struct PrunedCholesky {
     closure: Vec<u32>,
 }
 
-/// Memory for solves: two real columns, as long as the matrix.
-pub struct Columns2 {
+/// Workspace of a solve: the real and the imaginary parts of one complex column, as two real columns
+/// of the length of the matrix.
+pub struct SplitColumns {
     pub(super) re: Vec<f64>,
     pub(super) im: Vec<f64>,
-    /// As long as a supernode has rows below its own.
+    /// Real parts of the rows below a supernode, as many as the largest supernode has.
     pub(super) below_re: Vec<f64>,
     pub(super) below_im: Vec<f64>,
 }
@@ -50,11 +51,16 @@ impl PrunedCholesky {
         Ok(factor)
     }
 
-    /// Memory for solves with this factor.
-    pub fn work(&self) -> Columns2 {
+    /// Returns a zeroed workspace for solves with this factor.
+    pub fn work(&self) -> SplitColumns {
         let size = self.symbolic.nrows();
         let below = self.nodes().map_or(0, |nodes| nodes.nnz_per_super().iter().copied().max().unwrap_or(0)) as usize;
-        Columns2 { re: vec![0.0; size], im: vec![0.0; size], below_re: vec![0.0; below], below_im: vec![0.0; below] }
+        SplitColumns {
+            re: vec![0.0; size],
+            im: vec![0.0; size],
+            below_re: vec![0.0; below],
+            below_im: vec![0.0; below],
+        }
     }
 
     /// Values of the factor.
@@ -75,7 +81,7 @@ impl PrunedCholesky {
     }
 
     /// The entries at the ports of the solution with the right-hand side that is `y` at the ports, 0 elsewhere; in place.
-    pub fn solve_at_ports(&self, y: &mut [Complex64], work: &mut Columns2) {
+    pub fn solve_at_ports(&self, y: &mut [Complex64], work: &mut SplitColumns) {
         self.put(self.ports.iter().copied().zip(y.iter().copied()), work);
         self.forward(self.closure.iter().copied(), work);
         self.backward(self.closure.iter().copied().rev(), work);
@@ -87,7 +93,7 @@ impl PrunedCholesky {
     pub fn solve_to_ports(
         &self,
         right: impl Iterator<Item = (u32, Complex64)> + Clone,
-        work: &mut Columns2,
+        work: &mut SplitColumns,
     ) -> Vec<Complex64> {
         let from = self.closure_of(&right.clone().map(|(u, _)| u).collect::<Vec<_>>());
         self.put(right, work);
@@ -100,14 +106,14 @@ impl PrunedCholesky {
     }
 
     /// The solution (one entry per row) with the right-hand side that is `y` at the ports, 0 elsewhere.
-    pub fn solve_from_ports(&self, y: &[Complex64], work: &mut Columns2) -> Vec<Complex64> {
+    pub fn solve_from_ports(&self, y: &[Complex64], work: &mut SplitColumns) -> Vec<Complex64> {
         self.put(self.ports.iter().copied().zip(y.iter().copied()), work);
         self.forward(self.closure.iter().copied(), work);
         self.whole(work)
     }
 
     /// Goes backward through all columns and reads everything.
-    fn whole(&self, work: &mut Columns2) -> Vec<Complex64> {
+    fn whole(&self, work: &mut SplitColumns) -> Vec<Complex64> {
         self.backward((0..self.node_count()).rev(), work);
         let solution = (0..self.symbolic.nrows() as u32).map(|u| self.at(u));
         let solution = solution.map(|p| Complex64::new(work.re[p], work.im[p])).collect();
@@ -150,7 +156,7 @@ impl PrunedCholesky {
         (0..marked.len() as u32).filter(|&s| marked[s as usize]).collect()
     }
 
-    fn put(&self, right: impl Iterator<Item = (u32, Complex64)>, work: &mut Columns2) {
+    fn put(&self, right: impl Iterator<Item = (u32, Complex64)>, work: &mut SplitColumns) {
         for (u, y) in right {
             let p = self.at(u);
             work.re[p] += y.re;
@@ -158,14 +164,14 @@ impl PrunedCholesky {
         }
     }
 
-    fn take_ports(&self, y: &mut [Complex64], work: &Columns2) {
+    fn take_ports(&self, y: &mut [Complex64], work: &SplitColumns) {
         for (y, &u) in y.iter_mut().zip(&self.ports) {
             let p = self.at(u);
             *y = Complex64::new(work.re[p], work.im[p]);
         }
     }
 
-    fn clear(&self, supernodes: impl Iterator<Item = u32>, work: &mut Columns2) {
+    fn clear(&self, supernodes: impl Iterator<Item = u32>, work: &mut SplitColumns) {
         let Some(nodes) = self.nodes() else { return };
         for s in supernodes {
             let own = nodes.supernode_begin()[s as usize] as usize..nodes.supernode_end()[s as usize] as usize;
@@ -176,7 +182,7 @@ impl PrunedCholesky {
 
     /// L x = b over these supernodes, ascending. Rows of other supernodes may be left with rubbish only if no supernode in
     /// the list has them, which a closure excludes.
-    fn forward(&self, supernodes: impl Iterator<Item = u32>, work: &mut Columns2) {
+    fn forward(&self, supernodes: impl Iterator<Item = u32>, work: &mut SplitColumns) {
         let Some(nodes) = self.nodes() else { return };
         // In the widest vectors that the processor has.
         Arch::new().dispatch(|| {
@@ -187,7 +193,7 @@ impl PrunedCholesky {
     }
 
     /// Lᵀ x = b over these supernodes, descending; x must be known at all rows below theirs.
-    fn backward(&self, supernodes: impl Iterator<Item = u32>, work: &mut Columns2) {
+    fn backward(&self, supernodes: impl Iterator<Item = u32>, work: &mut SplitColumns) {
         let Some(nodes) = self.nodes() else { return };
         Arch::new().dispatch(|| {
             for s in supernodes {

@@ -9,7 +9,7 @@ use crate::constraint::{Elimination, Fixed};
 use crate::energy::conformal::{Weight, block, weights};
 use crate::quad_graph::QuadGraph;
 use crate::solver::linear::normal::{pattern, real_values};
-use crate::sparse::{Columns2, Pattern, PrunedCholesky};
+use crate::sparse::{Pattern, PrunedCholesky, SplitColumns};
 
 /// `K = c (shift ahead − shift back)` along the boundary.
 pub(super) const C: f64 = 0.25;
@@ -38,7 +38,7 @@ pub struct Reduction<'a> {
 }
 
 struct Work {
-    columns: Option<Columns2>,
+    columns: Option<SplitColumns>,
     at_ports: Vec<Complex64>,
     products: usize,
 }
