@@ -4,7 +4,7 @@ use crate::energy::EnergyError;
 use crate::energy::conformal::NonPositiveRho;
 use crate::map::periodic::PeriodicError;
 use crate::quad_graph::QuadGraphError;
-use crate::solver::boundary::Unreduced;
+use crate::solver::boundary::BoundaryError;
 use crate::solver::convex::ConvexError;
 use crate::solver::{MinimiseError, SolveError, Unsuitable};
 use crate::surface::cut::CutError;
@@ -218,7 +218,7 @@ pub enum MapError {
     Minimise(#[from] MinimiseError),
     /// No solution of the problem on the boundary.
     #[error(transparent)]
-    Reduced(#[from] Unreduced),
+    Reduced(#[from] BoundaryError),
     /// A minimisation that ran out of iterations, or met rounding too early.
     #[error(
         "{backend} did not converge: {status} after {iterations} iterations, with the gradient at {reduction:.1e} of \
@@ -243,7 +243,7 @@ impl MapError {
     /// Whether nothing stands against the map but integral weights, which are undefined where Re ρ ≤ 0, whichever backend met that.
     pub fn is_of_integral_weights(&self) -> bool {
         match self {
-            MapError::NonPositiveRho(_) | MapError::Reduced(Unreduced::NonPositiveRho(_)) => true,
+            MapError::NonPositiveRho(_) | MapError::Reduced(BoundaryError::NonPositiveRho(_)) => true,
             MapError::Energy(EnergyError::NonPositiveRho(_)) => true,
             MapError::Solve(SolveError::Unsuitable { reason, .. }) => matches!(reason, Unsuitable::NonPositiveRho(_)),
             _ => false,

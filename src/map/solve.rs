@@ -11,7 +11,7 @@ use crate::constraint::ConstraintError;
 use crate::distortion::mesh_boundary;
 use crate::geometry::polygon::out_of_order;
 use crate::solver::Observer;
-use crate::solver::boundary::{TwoCirclesError, Unreduced};
+use crate::solver::boundary::{BoundaryError, TwoCirclesError};
 
 /// The map of a domain. `exact` are exact conformal coordinates, one per vertex of the source.
 pub(super) fn solve(
@@ -90,7 +90,7 @@ fn injective(setup: &Setup, conformal: Result<Map, MapError>, watch: &mut dyn Ob
         },
         Err(
             MapError::NotConverged { iterations, .. }
-            | MapError::Reduced(Unreduced::TwoCircles(TwoCirclesError::Stalled { iterations, .. })),
+            | MapError::Reduced(BoundaryError::TwoCircles(TwoCirclesError::Stalled { iterations, .. })),
         ) => (None, None, iterations),
         // A start, or a matrix, beyond the range of doubles: others may be within.
         Err(MapError::Minimise(_) | MapError::Constraint(ConstraintError::NoArcLength(..))) => (None, None, 0),

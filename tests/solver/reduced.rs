@@ -9,7 +9,7 @@ use riemap::input::Input;
 use riemap::map::{Boundary, Exactly, MapError, MapOptions, Mapped, Pin, Provenance, RhoSource, Valid, run};
 use riemap::quad_graph::curvature;
 use riemap::solver::Silent;
-use riemap::solver::boundary::{Reduction, Unreduced};
+use riemap::solver::boundary::{BoundaryError, Reduction};
 
 fn circle(solver: &str) -> MapOptions {
     // The plain maps, folds and all.
@@ -232,7 +232,7 @@ fn what_does_not_reduce_is_refused_by_name_and_left_to_others_by_auto() {
         MapOptions { pins: vec![outer(0, 0.0)], ..free("reduced") },
     ] {
         let error = refusal(name, &options);
-        assert!(matches!(error, MapError::Reduced(Unreduced::Unsuitable { .. })), "{error}");
+        assert!(matches!(error, MapError::Reduced(BoundaryError::Unsuitable { .. })), "{error}");
         let mapped = map(name, &MapOptions { solver: "auto".to_owned(), ..options });
         assert_eq!((mapped.map.provenance, mapped.map.exactly), (Provenance::of("levenberg-marquardt"), None));
     }
@@ -248,7 +248,7 @@ fn what_does_not_reduce_is_refused_by_name_and_left_to_others_by_auto() {
     assert_eq!(round.map.exactly, Some(Exactly::Conformal));
     let free_boundary = MapOptions { boundary: Boundary::Free, ..with_circumcentres("reduced") };
     let error = refusal(obtuse, &free_boundary);
-    assert!(matches!(error, MapError::Reduced(Unreduced::NonPositiveRho(_))), "{error}");
+    assert!(matches!(error, MapError::Reduced(BoundaryError::NonPositiveRho(_))), "{error}");
 }
 
 #[test]
@@ -291,7 +291,7 @@ fn hard_boundaries_fall_back_to_levenberg_marquardt_and_say_so() {
         let name = mapped.map.provenance.to_string();
         assert_eq!((name.as_str(), mapped.map.exactly), ("levenberg-marquardt (reduced stalled)", None));
         let error = refusal(path, &free("reduced"));
-        assert!(matches!(error, MapError::Reduced(Unreduced::Stalled { .. })), "{error}");
+        assert!(matches!(error, MapError::Reduced(BoundaryError::Stalled { .. })), "{error}");
     }
     assert_eq!(mapped.distortion.flipped, 0);
 }

@@ -15,7 +15,7 @@ pub(super) mod minimise;
 use num_complex::Complex64;
 
 use super::{Map, MapError};
-use crate::solver::boundary::{TwoCirclesError, Unreduced};
+use crate::solver::boundary::{BoundaryError, TwoCirclesError};
 
 /// How far a method came.
 pub(super) enum Attempt {
@@ -41,10 +41,10 @@ impl Attempt {
     }
 
     /// No convergence.
-    fn failed(reason: Unreduced, start: Option<Vec<Complex64>>) -> Self {
+    fn failed(reason: BoundaryError, start: Option<Vec<Complex64>>) -> Self {
         let iterations = match reason {
-            Unreduced::Stalled { iterations, .. }
-            | Unreduced::TwoCircles(TwoCirclesError::Stalled { iterations, .. }) => iterations,
+            BoundaryError::Stalled { iterations, .. }
+            | BoundaryError::TwoCircles(TwoCirclesError::Stalled { iterations, .. }) => iterations,
             _ => 0,
         };
         Attempt::Failed { reason: reason.into(), iterations, start }
@@ -67,14 +67,14 @@ pub(super) enum Unsuitable {
     /// The request is of another kind.
     Request(&'static str),
     /// The matrix that the method needs does not exist.
-    Matrix(Unreduced),
+    Matrix(BoundaryError),
 }
 
 impl From<Unsuitable> for MapError {
     fn from(reason: Unsuitable) -> Self {
         match reason {
-            Unsuitable::NotAsked => Unreduced::Unsuitable { reason: "it was not asked for" }.into(),
-            Unsuitable::Request(reason) => Unreduced::Unsuitable { reason }.into(),
+            Unsuitable::NotAsked => BoundaryError::Unsuitable { reason: "it was not asked for" }.into(),
+            Unsuitable::Request(reason) => BoundaryError::Unsuitable { reason }.into(),
             Unsuitable::Matrix(error) => error.into(),
         }
     }

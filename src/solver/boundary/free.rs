@@ -6,7 +6,7 @@ use super::conjugate::{hil, project};
 use super::gmres::gmres;
 use super::norm::norm;
 use super::turning::start;
-use super::{Reduction, Unreduced};
+use super::{BoundaryError, Reduction};
 use crate::solver::{Iteration, Observer, Status};
 
 /// Products at most in one linear solve; more means that it does not converge.
@@ -50,7 +50,7 @@ pub struct FreeMap {
 #[derive(Debug)]
 pub struct FreeStalled {
     /// Why.
-    pub reason: Unreduced,
+    pub reason: BoundaryError,
     /// Boundary values (`nb`) of the start.
     pub start: Vec<Complex64>,
 }
@@ -65,7 +65,7 @@ pub struct FreeStalled {
 pub fn free_map(problem: &FreeProblem, watch: &mut dyn Observer) -> Result<FreeMap, FreeStalled> {
     let begin = start(problem);
     let stalled = |iterations, residual| FreeStalled {
-        reason: Unreduced::Stalled { iterations, residual },
+        reason: BoundaryError::Stalled { iterations, residual },
         start: begin.clone(),
     };
     let mut state = State::new(problem, begin.clone(), 0.0);

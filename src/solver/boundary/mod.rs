@@ -33,7 +33,7 @@ pub const DESCRIPTION: &str =
 
 /// A problem that the backend did not solve.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Unreduced {
+pub enum BoundaryError {
     /// Integral weights that are undefined.
     #[error("backend `reduced` eliminates the interior with integral weights")]
     NonPositiveRho(#[from] NonPositiveRho),

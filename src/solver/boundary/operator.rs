@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use num_complex::Complex64;
 
-use super::Unreduced;
+use super::BoundaryError;
 use crate::constraint::{Elimination, Fixed};
 use crate::energy::conformal::{Weight, block, weights};
 use crate::quad_graph::QuadGraph;
@@ -48,7 +48,7 @@ impl<'a> Reduction<'a> {
     ///
     /// # Errors
     /// Re ρ ≤ 0 somewhere; a factor that breaks down.
-    pub fn new(graph: &'a QuadGraph, factoring: impl FnOnce()) -> Result<Self, Unreduced> {
+    pub fn new(graph: &'a QuadGraph, factoring: impl FnOnce()) -> Result<Self, BoundaryError> {
         let w = weights(graph, Weight::Integral)?;
         let mut position = vec![Pattern::NONE; graph.vertices];
         for (k, &v) in graph.boundary.iter().enumerate() {
@@ -91,7 +91,7 @@ impl<'a> Reduction<'a> {
             let values = real_values(&pattern, graph, &elimination, &w);
             let columns = pattern.into_columns();
             factoring();
-            let broken = |reason| Unreduced::Factorisation { unknowns, reason };
+            let broken = |reason| BoundaryError::Factorisation { unknowns, reason };
             Some(PrunedCholesky::new(&columns, elimination.order, &values, ports).map_err(broken)?)
         };
         let columns = factor.as_ref().map(PrunedCholesky::work);

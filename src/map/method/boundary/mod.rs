@@ -10,7 +10,7 @@ use crate::energy::Expression;
 use crate::energy::conformal::Weight;
 use crate::map::setup::Setup;
 use crate::map::{Boundary, MapError, MapOptions};
-use crate::solver::boundary::{self, Reduction, Unreduced};
+use crate::solver::boundary::{self, BoundaryError, Reduction};
 use crate::solver::{Observer, Phase};
 
 /// The map whose boundary is exactly on the unit circle, or has exactly the given lengths, of lowest H.
@@ -38,7 +38,7 @@ pub(in crate::map) fn is_asked(options: &MapOptions) -> bool {
 }
 
 /// The reduced operator of the problem's quad graph.
-fn reduction<'a>(setup: &Setup<'a>, watch: &mut dyn Observer) -> Result<Reduction<'a>, Unreduced> {
+fn reduction<'a>(setup: &Setup<'a>, watch: &mut dyn Observer) -> Result<Reduction<'a>, BoundaryError> {
     watch.phase(Phase::Assemble);
     let reduction = Reduction::new(&setup.domain.graph, || watch.phase(Phase::Factor))?;
     watch.phase(Phase::Solve);
