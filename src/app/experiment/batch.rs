@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-use super::pool::{Told, pool};
+use super::pool::{PoolEvent, pool};
 use super::run::{Ended, make, make_apart, versions, write};
 use super::{Config, Journal, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
 
@@ -106,12 +106,12 @@ impl Batch<'_> {
             let work = |item: usize| self.make(jobs[item], &versions, stop);
             pool(jobs.len(), threads, stop, &work, &mut |told| {
                 match told {
-                    Told::Pulse => watch(Event::Pulse),
-                    Told::Begun(item) => {
+                    PoolEvent::Pulse => watch(Event::Pulse),
+                    PoolEvent::Begun(item) => {
                         let (config, run) = self.of(jobs[item]);
                         watch(Event::Begun { config, run });
                     }
-                    Told::Ended(item, ended) => {
+                    PoolEvent::Ended(item, ended) => {
                         let (config, run) = self.of(jobs[item]);
                         let Some(Ended { record, seconds, .. }) = ended? else { return Ok(()) };
                         watch(Event::Ended { config, run, record: &record, seconds });

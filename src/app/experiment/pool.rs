@@ -4,47 +4,47 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread::{self, Builder};
 use std::time::Duration;
 
-/// How often the caller is told that time passes.
+/// Interval of [`PoolEvent::Pulse`].
 const PULSE: Duration = Duration::from_millis(200);
 /// Stack of a worker: as a main thread has; other threads have 2 MiB by default.
 const STACK: usize = 8 << 20;
 
-/// What the caller of [`pool`] is told.
-pub(super) enum Told<T> {
-    /// An item is begun.
+/// An event that [`pool`] reports to its caller.
+pub(super) enum PoolEvent<T> {
+    /// An item has begun: its index.
     Begun(usize),
-    /// An item has ended.
+    /// An item has ended: its index and result.
     Ended(usize, T),
-    /// Time passes.
+    /// Nothing ended within the last [`PULSE`]; also sent once at the end.
     Pulse,
 }
 
-/// Does `work` on items 0 … `count` − 1, begun in this order, on `threads` threads, and tells `hear` of it on this one.
-/// No more are begun where `stop` says so or `hear` fails.
+/// Runs `work` on items 0 … `count` − 1, begun in this order, on `threads` threads, and calls `on_event` on the calling thread.
+/// Begins no further item once `stop` returns true or `on_event` fails.
 ///
 /// # Errors
-/// That of `hear`; a thread that the system refuses.
+/// The error of `on_event`, or a thread that the system refuses to start.
 pub(super) fn pool<T: Send, E: From<io::Error>>(
     count: usize,
     threads: usize,
     stop: &(dyn Fn() -> bool + Sync),
     work: &(dyn Fn(usize) -> T + Sync),
-    hear: &mut dyn FnMut(Told<T>) -> Result<(), E>,
+    on_event: &mut dyn FnMut(PoolEvent<T>) -> Result<(), E>,
 ) -> Result<(), E> {
     let next = AtomicUsize::new(0);
     let (sender, receiver) = channel();
     thread::scope(|scope| {
-        // Dropped on every way out, so that the workers hear that nobody listens.
+        // Dropped on every way out, so that the workers notice that nobody receives.
         let receiver = receiver;
         for _ in 0..threads.min(count) {
             let (next, sender) = (&next, sender.clone());
             let worker = move || {
                 while !stop() {
                     let item = next.fetch_add(1, Ordering::Relaxed);
-                    if item >= count || sender.send(Told::Begun(item)).is_err() {
+                    if item >= count || sender.send(PoolEvent::Begun(item)).is_err() {
                         return;
                     }
-                    if sender.send(Told::Ended(item, work(item))).is_err() {
+                    if sender.send(PoolEvent::Ended(item, work(item))).is_err() {
                         return;
                     }
                 }
@@ -54,10 +54,10 @@ pub(super) fn pool<T: Send, E: From<io::Error>>(
         drop(sender);
         loop {
             match receiver.recv_timeout(PULSE) {
-                Ok(told) => hear(told)?,
-                Err(RecvTimeoutError::Timeout) => hear(Told::Pulse)?,
-                // A last time, for what came up after the last item.
-                Err(RecvTimeoutError::Disconnected) => return hear(Told::Pulse),
+                Ok(event) => on_event(event)?,
+                Err(RecvTimeoutError::Timeout) => on_event(PoolEvent::Pulse)?,
+                // A last pulse, so that the caller sees the state after the last item.
+                Err(RecvTimeoutError::Disconnected) => return on_event(PoolEvent::Pulse),
             }
         }
     })

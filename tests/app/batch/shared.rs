@@ -54,7 +54,7 @@ impl Default for How<'_> {
 
 /// What a batch told.
 #[derive(Default)]
-pub struct Told {
+pub struct PoolEvent {
     pub made: Vec<Record>,
     pub finished_before: Vec<Record>,
     /// `+` and `-` with the name of the config: begun and ended.
@@ -62,10 +62,10 @@ pub struct Told {
     pub summed: Vec<String>,
 }
 
-pub fn batch(configs: &[Config], results: &Path, how: &How) -> Told {
+pub fn batch(configs: &[Config], results: &Path, how: &How) -> PoolEvent {
     // By what is on disk, for events are heard some time after.
     let stop = || how.stop_after != usize::MAX && written(results) >= how.stop_after;
-    let mut told = Told::default();
+    let mut told = PoolEvent::default();
     let threads = NonZeroUsize::new(how.threads).unwrap();
     Batch { configs, shard: how.shard, results, threads, apart: None, journal: how.journal }
         .run(&stop, &mut |event| match event {
