@@ -27,8 +27,8 @@ pub(super) struct Rules<'a> {
     pub patience: Duration,
 }
 
-/// A contestant, as far as it has come.
-pub(super) struct Seat {
+/// A contestant on one mesh, with its runs so far and how they ended.
+pub(super) struct Entrant {
     pub contestant: &'static Contestant,
     pub runs: Vec<Measured>,
     quality: Quality,
@@ -42,16 +42,16 @@ enum Run {
     Failed(String),
 }
 
-impl Seat {
+impl Entrant {
     /// A contestant on a mesh on which a process will take `expected` seconds or more, as a smaller one says.
-    pub fn new(contestant: &'static Contestant, expected: Option<f64>, rules: &Rules) -> Seat {
+    pub fn new(contestant: &'static Contestant, expected: Option<f64>, rules: &Rules) -> Entrant {
         let limit = rules.limit.as_secs_f64();
         let over = expected.filter(|&seconds| seconds > limit);
         let end = match lacks(rules.peers, contestant) {
             Some((lacks, install)) => Some(Outcome::LeftOut { lacks, install }),
             None => over.map(|seconds| Outcome::OverTheLimit { limit, expected: Some(seconds), spent: None }),
         };
-        Seat { contestant, runs: Vec::new(), quality: Quality::default(), end }
+        Entrant { contestant, runs: Vec::new(), quality: Quality::default(), end }
     }
 
     /// Whether it is its turn in this round.

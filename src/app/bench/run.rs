@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::contest::{Rules, Seat};
+use super::contest::{Entrant, Rules};
 use super::exchange::exchange;
 use super::median::compare;
 use super::record::{Entry, Outcome, Record};
@@ -68,21 +68,21 @@ pub fn run(plan: &Plan, peers: Option<&Peers>, tell: &mut dyn FnMut(Event)) -> R
             let target = Target::new(&source, folder)?;
             let (vertices, faces) = (target.vertices, target.faces);
             tell(Event::Mesh { case: case.name, vertices, faces });
-            let mut seats: Vec<Seat> = CONTESTANTS
+            let mut entrants: Vec<Entrant> = CONTESTANTS
                 .iter()
                 .filter(|contestant| contestant.is_ours() || plan.against_peers)
                 .filter(|contestant| contestant.enters(case, vertices))
-                .map(|contestant| Seat::new(contestant, expected(&record, case, contestant.name, vertices), &rules))
+                .map(|contestant| Entrant::new(contestant, expected(&record, case, contestant.name, vertices), &rules))
                 .collect();
             for round in 0..plan.repeats {
-                for seat in seats.iter_mut().filter(|seat| seat.is_next(round, &rules)) {
-                    seat.run(&target, &rules)?;
+                for entrant in entrants.iter_mut().filter(|entrant| entrant.is_next(round, &rules)) {
+                    entrant.run(&target, &rules)?;
                 }
             }
             let size = size.unwrap_or(vertices);
             let first = record.entries.len();
-            for seat in seats {
-                let (outcome, contestant) = (seat.outcome(), seat.contestant);
+            for entrant in entrants {
+                let (outcome, contestant) = (entrant.outcome(), entrant.contestant);
                 record.entries.push(Entry {
                     case: case.name,
                     size,
@@ -91,7 +91,7 @@ pub fn run(plan: &Plan, peers: Option<&Peers>, tell: &mut dyn FnMut(Event)) -> R
                     faces,
                     contestant: contestant.name,
                     kind: contestant.kind,
-                    runs: seat.runs,
+                    runs: entrant.runs,
                     outcome,
                     ratio: None,
                 });
