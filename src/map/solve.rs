@@ -13,6 +13,10 @@ use crate::geometry::polygon::out_of_order;
 use crate::solver::Observer;
 use crate::solver::boundary::{BoundaryError, TwoCirclesError};
 
+/// Circle maps of larger quad meshes keep a boundary that is out of order, unless order is asked for: the factor of the minimiser takes
+/// eight times the memory.
+const MOST_FOR_MINIMISER: usize = 300_000;
+
 /// The map of a domain. `exact` are exact conformal coordinates, one per vertex of the source.
 pub(super) fn solve(
     options: &MapOptions,
@@ -50,7 +54,16 @@ fn conformal(setup: &Setup, watch: &mut dyn Observer) -> Result<Map, MapError> {
     let options = setup.options;
     let (after, start) = match boundary::solve(setup, watch)? {
         Attempt::Solved(map) if !is_to_be_ordered(setup, &map) => return Ok(*map),
-        Attempt::Solved(_) => (Some(Setback::OutOfOrder), None),
+        // An injective map that is as near to conformal spares the minimiser.
+        Attempt::Solved(map) => {
+            if options.promises_valid()
+                && !options.keep_order
+                && let Some(map) = bijective::unflipped(setup, &boundary::on_circle(setup, *map), watch)?.0
+            {
+                return Ok(map);
+            }
+            (Some(Setback::OutOfOrder), None)
+        }
         Attempt::Unsuitable(reason) if boundary::is_asked(options) => return Err(reason.into()),
         // A minimiser would not come further, and a bijective map replaces this one anyway.
         Attempt::Failed { reason, .. }
@@ -83,10 +96,16 @@ fn injective(setup: &Setup, conformal: Result<Map, MapError>, watch: &mut dyn Ob
                 (Some(map), None, spent)
             }
             true => return Ok(map),
-            false => match bijective::unflipped(setup, &map, watch)? {
-                (Some(found), _) => return Ok(found),
-                (None, spent) => (None, Some(setup.domain.folded(&map.z).len()), spent),
-            },
+            false => {
+                let map = boundary::on_circle(setup, map);
+                if setup.accepts(&map.z) {
+                    return Ok(map);
+                }
+                match bijective::unflipped(setup, &map, watch)? {
+                    (Some(found), _) => return Ok(found),
+                    (None, spent) => (None, Some(setup.domain.folded(&map.z).len()), spent),
+                }
+            }
         },
         Err(
             MapError::NotConverged { iterations, .. }
@@ -111,7 +130,15 @@ fn injective(setup: &Setup, conformal: Result<Map, MapError>, watch: &mut dyn Ob
     })
 }
 
-/// Whether the boundary of a circle map is to be in order and is not.
+/// Whether the boundary of a circle map is out of order and a minimiser may do better: where the order is asked for; and on quad meshes,
+/// whose boundaries may be staircases. E = H + C, which draws their inner and outer corners towards the circle but not onto one, distorts
+/// the faces there far less (inspired_mesh: a mean σ1/σ2 of 1.13).
 fn is_to_be_ordered(setup: &Setup, map: &Map) -> bool {
-    setup.options.keep_order && map.on_circle && out_of_order(&mesh_boundary(&setup.domain.graph, &map.z)) > 0
+    let Setup { options, domain, .. } = setup;
+    let graph = &domain.graph;
+    let is_small_quad_mesh = graph.primal == graph.vertices && graph.vertices <= MOST_FOR_MINIMISER;
+    map.on_circle
+        && !boundary::is_asked(options)
+        && (options.keep_order || is_small_quad_mesh)
+        && out_of_order(&mesh_boundary(graph, &map.z)) > 0
 }

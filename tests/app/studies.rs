@@ -211,7 +211,10 @@ fn a_trace_begins_at_the_start_and_ends_at_the_map() {
         assert_eq!(iteration[n - 1], record.get("result.solver.iterations").unwrap().as_f64().unwrap());
         assert_eq!(total[n - 1], record.get("result.energy.total").unwrap().as_f64().unwrap());
         assert!(iteration.windows(2).all(|w| w[0] < w[1]) && seconds.windows(2).all(|w| w[0] <= w[1]));
-        // All of these lower the energy at every step; where it is 1e-13 of the start's, sums round.
+        // Minimisers lower the energy at every step; where it is 1e-13 of the start's, sums round. Newton's method on the boundary
+        // lowers the residual of its equations.
+        let falling = if record.run.contains("name=reduced") { &gradient } else { &total };
+        let total = falling;
         assert!(total.windows(2).all(|w| w[1] <= w[0] + 1e-13 * total[0]), "{}: {total:?}", record.run);
     }
     // All minimisers of one problem begin at the same map.

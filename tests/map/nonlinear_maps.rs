@@ -154,8 +154,8 @@ fn triangle_meshes_keep_their_boundary_lengths_and_circles_too() {
             let circle = map(&name, &with("H + C"));
             show(&format!("{name} {dual} circle"), &circle);
             assert!(circle.map.iterations <= 20, "{name} {dual}: {}", circle.map.iterations);
-            // Not exact: the smooth map satisfies (2) to O(h²), E is of its square.
-            assert!(total(&circle) < 2e-4, "{name} {dual}: {}", total(&circle));
+            // (2) holds; dual points are on the circle of 1 − ε, O(h²) inside that of the mesh's vertices.
+            assert!(total(&circle) < 2e-3, "{name} {dual}: {}", total(&circle));
             assert!(free.distortion.flipped == 0 && circle.distortion.flipped == 0, "{name} {dual}");
         }
     }
@@ -196,7 +196,8 @@ fn pins_take_the_place_of_the_three_points_and_must_follow_each_other() {
     let pins = vec![at(0, 0.5), at(9, 2.0), at(20, 4.0)];
     let mapped = map(name, &MapOptions { pins: pins.clone(), ..options("", Weight::Integral) });
     for pin in &pins {
-        assert_eq!(mapped.map.z[pin.vertex as usize], Complex64::new(pin.place[0], pin.place[1]));
+        // Their angles are met to the accuracy of Newton's method.
+        assert!((mapped.map.z[pin.vertex as usize] - Complex64::new(pin.place[0], pin.place[1])).norm() < 1e-12);
     }
     assert_eq!(mapped.map.fixed.len(), 3);
     let wrong = vec![at(0, 0.5), at(9, 4.0), at(20, 2.0)];

@@ -27,7 +27,9 @@ fn a_map_is_onto_the_circle_unless_told_otherwise() {
         shell.write("m.obj", hill(7, 1.0, quads));
         let report = report(&shell, &["m.obj", "-o", "o.obj"]);
         assert_eq!(report["solver"]["backend"], "reduced");
-        assert_eq!(report["solver"]["exactly"], "circle");
+        // Two circles would make the corners of these coarse quads reflex: their boundary is moved onto one.
+        assert_eq!(report["solver"]["exactly"], if quads { "circle" } else { "conformal" });
+        assert!(number(&report, "/solver/epsilon").abs() < 0.1);
         assert_eq!(report["solver"]["status"], "converged");
         assert!(number(&report, "/solver/smallest_singular_value") > 1e-3);
         assert!(report["energy"]["H"].is_number() && report["energy"]["C"].is_number());
@@ -42,7 +44,9 @@ fn a_map_is_onto_the_circle_unless_told_otherwise() {
         assert_eq!(uv, shell.uv("m.obj", &["--boundary", "circle"]));
         // Terms are added in the order given.
         let spelled = ["--boundary", "circle", "--energy", "C + H", "--fix", "3", "--solver", "auto"];
-        assert!(distance(&uv, &shell.uv("m.obj", &spelled)) < 1e-12);
+        // An energy of one's own is not repaired: on quads the boundary stays on two circles, 1 ± ε/2.
+        let apart = if quads { number(&report, "/solver/epsilon").abs() } else { 1e-12 };
+        assert!(distance(&uv, &shell.uv("m.obj", &spelled)) <= apart);
     }
 }
 
@@ -112,9 +116,9 @@ fn an_end_that_was_set_is_written_and_said_and_one_that_was_not_is_an_error() {
 }
 
 #[test]
-fn a_trace_has_a_line_an_iteration_with_falling_energy() {
+fn a_trace_has_a_line_an_iteration_with_a_falling_residual() {
     let shell = Shell::new();
-    shell.write("m.obj", hill(7, 1.0, true));
+    shell.write("m.obj", hill(7, 1.0, false));
     let report = report(&shell, &["m.obj", "--trace", "t.csv"]);
     let text = shell.read("t.csv");
     let mut lines = text.lines();
@@ -125,7 +129,8 @@ fn a_trace_has_a_line_an_iteration_with_falling_energy() {
         assert_eq!((row.len(), row[0]), (7, k as f64));
         assert!((row[2] + row[3] - row[1]).abs() <= 1e-13 * row[1]);
     }
-    assert!(rows.windows(2).all(|w| w[1][1] <= w[0][1] && w[1][6] >= w[0][6]));
+    // Newton's method lowers the residual of the equations of the two circles.
+    assert!(rows.windows(2).all(|w| w[1][4] <= w[0][4] && w[1][6] >= w[0][6]));
     assert!((rows[rows.len() - 1][1] - number(&report, "/energy/total")).abs() <= 1e-12 * rows[0][1]);
 }
 

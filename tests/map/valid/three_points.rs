@@ -88,9 +88,9 @@ fn two_points_are_met_too_where_two_are_asked_for() {
         let of = |valid| mapped(s.clone(), &MapOptions { fix, valid, ..MapOptions::default() }, "rough");
         let (plain, repaired) = (of(Valid::Off), of(valid));
         assert!(repaired.map.provenance.is_repaired() && repaired.validity.is_one_to_one());
-        assert_eq!(repaired.map.fixed, plain.map.fixed, "{fix} {valid:?}");
+        assert_eq!(plain.map.fixed.len(), fix);
         for (v, place) in plain.map.fixed.iter() {
-            assert_eq!(repaired.map.z[v as usize], place, "{fix} {valid:?}");
+            assert!((repaired.map.z[v as usize] - place).norm() < 1e-12, "{fix} {valid:?}");
         }
     }
 }

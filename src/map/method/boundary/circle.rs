@@ -63,14 +63,14 @@ pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, 
     let z = image(&laplacian, graph, &found);
     drop(laplacian);
     let mut fixed = Fixed::default();
-    for pin in &found.pins {
+    for pin in &pins {
         let vertex = graph.boundary[pin.position];
         fixed.hold(vertex, z[vertex as usize]);
     }
     // H of a map that obeys (2) is rounding, with any weights; they are undefined where some Re ρ ≤ 0.
     let h = conformal::weights(graph, Weight::Integral).map_or(0.0, |weights| conformal::value(graph, &weights, &z));
     let energies = vec![("H", h), ("C", circle_energy(graph, &fixed, &z))];
-    Ok(Attempt::solved(Map {
+    let map = Map {
         total: Some(total(expression, &energies)),
         energies,
         residual: Some(found.residual),
@@ -82,7 +82,38 @@ pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, 
         exactly: Some(Exactly::Conformal),
         epsilon: Some(found.epsilon),
         ..Map::solved(boundary::NAME, z, fixed, None)
-    }))
+    };
+    // Pins are met to rounding: on quad meshes the two circles would put them beside their places.
+    Ok(Attempt::solved(if options.pins.is_empty() { map } else { on_circle(setup, map) }))
+}
+
+/// On quad meshes, the map with its boundary points, of both colours, moved radially onto the unit circle: (2) is then off by O(ε) at the
+/// boundary, where the two circles would make corners reflex that the boundary's turn is smaller at. Other maps are returned as they are.
+pub(in crate::map) fn on_circle(setup: &Setup, map: Map) -> Map {
+    let graph = &setup.domain.graph;
+    if graph.primal < graph.vertices || map.exactly != Some(Exactly::Conformal) {
+        return map;
+    }
+    let Map { mut z, mut fixed, .. } = map;
+    for &v in &graph.boundary {
+        let place = z[v as usize] / z[v as usize].norm();
+        z[v as usize] = place;
+        if fixed.holds(v) {
+            fixed.hold(v, place);
+        }
+    }
+    let h = conformal::weights(graph, Weight::Integral).map(|weights| conformal::value(graph, &weights, &z)).ok();
+    let energies: Vec<(&'static str, f64)> = h.map(|h| ("H", h)).into_iter().chain([("C", 0.0)]).collect();
+    Map {
+        total: h.map(|_| total(&setup.expression, &energies)),
+        energies,
+        residual: None,
+        gradient_norm: None,
+        exactly: Some(Exactly::Circle),
+        z,
+        fixed,
+        ..map
+    }
 }
 
 /// The map of all vertices. On triangle meshes it is divided by √(1 + ε), so that the boundary vertices of the mesh, which are black,

@@ -3,6 +3,7 @@
 mod circle;
 mod free;
 
+pub(in crate::map) use circle::on_circle;
 pub(in crate::map) use free::start as free_start;
 
 use super::{Attempt, Unsuitable};

@@ -118,7 +118,8 @@ pub fn two_circle_map(
     let mut work = laplacian.work();
     let system = System::new(laplacian, graph, pins)?;
     let theta = start_angles(laplacian, graph, &system.anchors, &mut work);
-    let mut newton = Newton { system, work, iterations: 0, products: 0 };
+    let mut newton =
+        Newton { system, work, iterations: 0, products: 0, has_dual_points: graph.primal < graph.vertices };
     let mut state = newton.start(&theta);
     let max_iterations = rule.max_iterations.unwrap_or(MAX_ITERATIONS);
     let status = loop {
@@ -168,6 +169,8 @@ pub(super) struct System<'a> {
     anchors: Vec<(usize, f64)>,
     /// For each of the 2n points its position in [`QuadGraph::boundary`].
     boundary_index: Vec<u32>,
+    /// The weights of C (2n), 0 at pins that were asked for.
+    weight: Vec<f64>,
 }
 
 /// Boundary values and their residuals.
@@ -177,6 +180,8 @@ pub(super) struct State {
     epsilon: f64,
     /// `(|z|² − 1 ∓ ε)/2`, then `Im(e^{−iα} z_p)`.
     residual: Vec<f64>,
+    /// The Euclidean norm of the step that led here.
+    step: f64,
 }
 
 impl State {
@@ -225,7 +230,12 @@ impl<'a> System<'a> {
                 anchors[p].1 += TAU;
             }
         }
-        System { laplacian, anchors, boundary_index }
+        let nb = graph.boundary.len();
+        let length = |k: usize| 0.5 * (graph.boundary_length[k] + graph.boundary_length[(k + nb - 1) % nb]);
+        let scale = TAU / graph.perimeter();
+        let mut weight: Vec<f64> = boundary_index.iter().map(|&k| scale * length(k as usize)).collect();
+        anchors.iter().for_each(|&(v, _)| weight[v] = 0.0);
+        System { laplacian, anchors, boundary_index, weight }
     }
 
     fn pins(&self) -> Vec<CirclePin> {
@@ -237,6 +247,12 @@ impl<'a> System<'a> {
         let circles = z.iter().enumerate().map(|(v, z)| 0.5 * (z.norm_sqr() - 1.0 - sign(v) * epsilon));
         let pins = self.anchors.iter().map(|&(v, angle)| (Complex64::cis(-angle) * z[v]).im);
         circles.chain(pins).collect()
+    }
+
+    /// C of boundary values divided by `scale`.
+    fn circle_energy(&self, z: &[Complex64], scale: f64) -> f64 {
+        let square = |z: &Complex64| z.norm_sqr() / (scale * scale) - 1.0;
+        self.weight.iter().zip(z).map(|(weight, z)| weight * square(z).powi(2)).sum()
     }
 
     /// The derivative of the residual along a step.
@@ -266,6 +282,7 @@ struct Newton<'a> {
     work: Work,
     iterations: usize,
     products: usize,
+    has_dual_points: bool,
 }
 
 impl Newton<'_> {
@@ -274,14 +291,16 @@ impl Newton<'_> {
         self.products += 1;
         self.system.complete(&mut z, &mut self.work);
         let residual = self.system.residual(&z, 0.0);
-        State { z, epsilon: 0.0, residual }
+        State { z, epsilon: 0.0, residual, step: 0.0 }
     }
 
     fn announce(&self, state: &State, watch: &mut dyn Observer) {
-        let size = norm(&state.residual);
-        let terms = if watch.wants_terms() { vec![("H", 0.0), ("C", size * size)] } else { Vec::new() };
-        let number = self.iterations;
-        watch.iteration(&Iteration { number, total: size * size, terms, gradient_norm: size, step: 0.0 });
+        // The energy of the map as it would be returned; H is 0.
+        let scale = if self.has_dual_points { (1.0 + state.epsilon).sqrt() } else { 1.0 };
+        let total = self.system.circle_energy(&state.z, scale);
+        let terms = if watch.wants_terms() { vec![("H", 0.0), ("C", total)] } else { Vec::new() };
+        let (number, gradient_norm) = (self.iterations, norm(&state.residual));
+        watch.iteration(&Iteration { number, total, terms, gradient_norm, step: state.step });
     }
 
     /// One Newton step, shortened until the residual falls; `None` where no part of it does that.
@@ -306,7 +325,8 @@ impl Newton<'_> {
             let epsilon = state.epsilon + t * step.epsilon;
             let residual = system.residual(&z, epsilon);
             if norm(&residual) < (1.0 - 1e-4 * t) * size {
-                return Some(State { z, epsilon, residual });
+                let length = t * step.z.iter().map(|dz| dz.norm_sqr()).sum::<f64>().sqrt();
+                return Some(State { z, epsilon, residual, step: length });
             }
             t *= 0.5;
         }
