@@ -42,6 +42,12 @@ impl Colouring {
         Ok(Colouring { is_black: class.iter().map(|&k| k == class[first]).collect() })
     }
 
+    /// The same with white vertices for black ones.
+    #[must_use]
+    pub fn exchanged(&self) -> Self {
+        Colouring { is_black: self.is_black.iter().map(|black| !black).collect() }
+    }
+
     /// Whether vertex `v` is black.
     pub fn is_black(&self, v: u32) -> bool {
         self.is_black[v as usize]
@@ -59,7 +65,7 @@ impl Colouring {
     }
 
     /// All quads of `graph`, from their black diagonals.
-    pub fn quads(&self, graph: &QuadGraph) -> impl Iterator<Item = BlackQuad> {
+    pub fn quads(&self, graph: &QuadGraph) -> impl Iterator<Item = BlackQuad> + Clone {
         (0..graph.quads.len()).map(|q| self.quad(graph, q))
     }
 }

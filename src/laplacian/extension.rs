@@ -2,50 +2,9 @@
 
 use num_complex::Complex64;
 
-use super::{Colouring, ConformalLaplacian, Work};
+use super::{ConformalLaplacian, Work};
 use crate::quad_graph::QuadGraph;
-
-/// The quads at every vertex of one colour.
-pub(super) struct Around {
-    offsets: Vec<u32>,
-    quads: Vec<u32>,
-}
-
-impl Around {
-    /// The quads that have `ends(q)` for the ends of one of their diagonals.
-    fn new(vertices: usize, count: usize, ends: impl Fn(usize) -> [u32; 2]) -> Self {
-        let mut offsets = vec![0u32; vertices + 1];
-        for v in (0..count).flat_map(&ends) {
-            offsets[v as usize + 1] += 1;
-        }
-        for v in 0..vertices {
-            offsets[v + 1] += offsets[v];
-        }
-        let mut cursor = offsets.clone();
-        let mut quads = vec![0; 2 * count];
-        for q in 0..count {
-            for v in ends(q) {
-                quads[cursor[v as usize] as usize] = q as u32;
-                cursor[v as usize] += 1;
-            }
-        }
-        Around { offsets, quads }
-    }
-
-    pub fn of(&self, v: u32) -> &[u32] {
-        &self.quads[self.offsets[v as usize] as usize..self.offsets[v as usize + 1] as usize]
-    }
-}
-
-/// The quads at every black vertex.
-pub(super) fn black_neighbours(graph: &QuadGraph, colouring: &Colouring) -> Around {
-    Around::new(graph.vertices, graph.quads.len(), |q| colouring.quad(graph, q).black)
-}
-
-/// The quads at every white vertex.
-fn white_neighbours(graph: &QuadGraph, colouring: &Colouring) -> Around {
-    Around::new(graph.vertices, graph.quads.len(), |q| colouring.quad(graph, q).white)
-}
+use crate::sparse::Lists;
 
 impl ConformalLaplacian {
     /// The map (`nv`) with black boundary values b (n) and H = 0: inner black values are `−L_II⁻¹ L_IB b`, white ones follow
@@ -93,7 +52,8 @@ impl ConformalLaplacian {
     /// Reaches the white vertices from `start`, breadth first: `visit(from, to, iρ, [i, j])` where
     /// `z_to = z_from + iρ (z_j − z_i)`. Ends where it returns true.
     fn walk_white(&self, graph: &QuadGraph, start: u32, mut visit: impl FnMut(u32, u32, Complex64, [u32; 2]) -> bool) {
-        let around = white_neighbours(graph, &self.colouring);
+        let quads = self.colouring.quads(graph).zip(0..);
+        let around = Lists::new(graph.vertices, quads.flat_map(|(quad, q)| quad.white.map(|v| (v, q))));
         let mut reached = vec![false; graph.vertices];
         reached[start as usize] = true;
         let mut queue = vec![start];
@@ -129,10 +89,6 @@ impl ConformalLaplacian {
             step[to as usize] = Some((from, i_rho, ends));
             false
         });
-        let mut position = vec![None; graph.vertices];
-        for (k, &v) in self.loops.black.iter().enumerate() {
-            position[v as usize] = Some(k);
-        }
         let mut work = self.work();
         let shift = |range: &std::ops::Range<usize>| {
             let mut c = vec![Complex64::ZERO; self.len()];
@@ -140,7 +96,7 @@ impl ConformalLaplacian {
             let mut at = self.loops.white[range.start];
             while let Some((from, i_rho, [i, j])) = step[at as usize] {
                 for (v, value) in [(j, i_rho), (i, -i_rho)] {
-                    match (position[v as usize], self.inner_index(v)) {
+                    match (self.numbering.position(v), self.inner_index(v)) {
                         (Some(k), _) => c[k] += value,
                         (_, Some(u)) => y[u] += value,
                         _ => {}
@@ -161,8 +117,9 @@ impl ConformalLaplacian {
         self.colouring.quads(graph).fold(0.0, |worst, quad| {
             let [i, j] = quad.black.map(|v| z[v as usize]);
             let [g, f] = quad.white.map(|v| z[v as usize]);
-            let r = (f - g - Complex64::I * quad.rho * (j - i)).norm();
-            let scale = f.norm() + g.norm() + quad.rho.norm() * (j.norm() + i.norm());
+            let size = |z: Complex64| z.norm_sqr().sqrt();
+            let r = size(f - g - Complex64::I * quad.rho * (j - i));
+            let scale = size(f) + size(g) + size(quad.rho) * (size(j) + size(i));
             let relative = if r == 0.0 { 0.0 } else { r / scale };
             // `f64::max` would pass over a NaN.
             if worst >= relative || f64::is_nan(worst) { worst } else { relative }

@@ -1,46 +1,59 @@
-//! Factors of L_II.
+//! Factors of L_II, and products with T.
 
-use faer::Conj;
-use faer::MatMut;
 use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::LuError;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
+use faer::{Conj, MatMut};
 use num_complex::Complex64;
 
 use super::LaplacianError;
-use super::matrix::InnerMatrix;
+use super::matrix::LowerTriangle;
+use super::rows::BoundaryRows;
 use crate::quad_graph::QuadGraph;
-use crate::sparse::{Breakdown, SymmetricFactor};
+use crate::sparse::{Breakdown, Entry, SolveWork, SymmetricFactor};
 
 /// A factorisation of L_II.
 #[derive(Debug)]
 pub(super) enum Factor {
     /// There are no inner black vertices.
     Nothing,
+    /// Real, where every ρ is.
+    Real(Box<Symmetric<f64>>),
     /// C Cᵀ, where every Re ρ > 0: Re L is positive definite, so that no pivot comes near 0.
-    Symmetric(Box<SymmetricFactor>),
+    Complex(Box<Symmetric<Complex64>>),
     /// Sparse LU with partial pivoting, for any ρ.
     Lu(Box<Lu<usize, Complex64>>),
 }
 
-/// Memory for solves.
+/// `L_II = C Cᵀ`.
 #[derive(Debug)]
+pub(super) struct Symmetric<T> {
+    factor: SymmetricFactor<T>,
+    flux: Flux,
+}
+
+/// How products with T are made.
+#[derive(Debug)]
+enum Flux {
+    /// T is there as a dense matrix.
+    Dense,
+    /// By a solve in the supernodes that the boundary reaches.
+    Pruned(Vec<u32>),
+}
+
+/// Memory for solves.
+#[derive(Clone, Debug)]
 pub struct Work {
-    size: usize,
+    solve: Option<SolveWork>,
     column: Vec<Complex64>,
 }
 
 impl Work {
-    pub(super) fn new(size: usize) -> Self {
-        Work { size, column: vec![Complex64::ZERO; size] }
-    }
-
     /// A column of zeros (m), to be given back.
     pub(super) fn take(&mut self) -> Vec<Complex64> {
         let mut column = std::mem::take(&mut self.column);
-        column.clear();
-        column.resize(self.size, Complex64::ZERO);
+        column.fill(Complex64::ZERO);
         column
     }
 
@@ -49,52 +62,121 @@ impl Work {
     }
 }
 
-impl Factor {
-    pub fn new(graph: &QuadGraph, matrix: &InnerMatrix) -> Result<Self, LaplacianError> {
-        let unknowns = matrix.columns.size();
-        if unknowns == 0 {
-            return Ok(Factor::Nothing);
-        }
-        if graph.rho.iter().all(|rho| rho.re > 0.0) {
-            let broken = |reason| LaplacianError::Factorisation { unknowns, reason };
-            let factor = SymmetricFactor::new(&matrix.columns, &matrix.values).map_err(broken)?;
-            return Ok(Factor::Symmetric(Box::new(factor)));
-        }
-        lu(matrix)
+impl<T: Entry> Symmetric<T> {
+    /// Factorises L_II, whose triangle is that of all L where there is a border.
+    fn new(triangle: &LowerTriangle, values: &[T], border: usize, rows: &BoundaryRows) -> Result<Self, Breakdown> {
+        let factor = SymmetricFactor::new(&triangle.columns, values, border)?;
+        let flux = match border {
+            0 => Flux::Pruned(factor.closure(rows.ports())),
+            _ => Flux::Dense,
+        };
+        Ok(Symmetric { factor, flux })
     }
 
-    /// Overwrites y with `L_II⁻¹ y`.
-    pub fn solve(&self, y: &mut [Complex64], _work: &mut Work) {
-        match self {
-            Factor::Nothing => {}
-            Factor::Symmetric(factor) => factor.solve_in_place(y),
-            Factor::Lu(factor) => {
-                let n = y.len();
-                factor.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(y, n, 1));
+    fn flux(&self, rows: &BoundaryRows, b: &[Complex64], flux: &mut [Complex64], work: &mut SolveWork) {
+        match &self.flux {
+            Flux::Dense => self.factor.schur_product(b, flux, work),
+            Flux::Pruned(closure) => {
+                rows.along(b, flux);
+                self.factor.solve_within(closure, work, |y| rows.inward(b, y), |y| rows.subtract_outward(y, flux));
             }
         }
     }
 }
 
-fn lu(matrix: &InnerMatrix) -> Result<Factor, LaplacianError> {
-    let unknowns = matrix.columns.size();
-    let broken = |reason| LaplacianError::Factorisation { unknowns, reason };
-    let too_large = broken(Breakdown::TooLarge);
-    let mut entries = Vec::with_capacity(2 * matrix.values.len());
-    for column in 0..unknowns {
-        for entry in matrix.columns.entries(column) {
-            let (row, value) = (matrix.columns.rows[entry] as usize, matrix.values[entry]);
-            entries.push(Triplet::new(row, column, value));
-            if row != column {
-                entries.push(Triplet::new(column, row, value));
+impl Factor {
+    /// Whether L_II has a symmetric factor if any.
+    pub fn is_symmetric(graph: &QuadGraph) -> bool {
+        graph.rho.iter().all(|rho| rho.re > 0.0) || graph.is_orthogonal()
+    }
+
+    /// Factorises L_II. With a border (the boundary) the triangle is that of all L.
+    pub fn new(
+        graph: &QuadGraph,
+        triangle: &LowerTriangle,
+        border: usize,
+        rows: &BoundaryRows,
+    ) -> Result<Self, LaplacianError> {
+        let unknowns = triangle.columns.size() - border;
+        let broken = |reason| LaplacianError::Factorisation { unknowns, reason };
+        if unknowns == 0 {
+            return Ok(Factor::Nothing);
+        }
+        if graph.is_orthogonal() {
+            let values: Vec<f64> = triangle.values.iter().map(|value| value.re).collect();
+            match Symmetric::new(triangle, &values, border, rows) {
+                Ok(factor) => return Ok(Factor::Real(Box::new(factor))),
+                Err(Breakdown::TooLarge) => return Err(broken(Breakdown::TooLarge)),
+                // Not positive definite, which negative ρ can bring about.
+                Err(_) => {}
+            }
+        } else if Factor::is_symmetric(graph) {
+            let factor = Symmetric::new(triangle, &triangle.values, border, rows).map_err(broken)?;
+            return Ok(Factor::Complex(Box::new(factor)));
+        }
+        lu(triangle, unknowns).map_err(broken)
+    }
+
+    /// Memory for solves of `size` unknowns.
+    pub fn work(&self, size: usize) -> Work {
+        let solve = match self {
+            Factor::Real(factor) => Some(factor.factor.work()),
+            Factor::Complex(factor) => Some(factor.factor.work()),
+            Factor::Nothing | Factor::Lu(_) => None,
+        };
+        Work { solve, column: vec![Complex64::ZERO; size] }
+    }
+
+    /// Overwrites y with `L_II⁻¹ y`.
+    pub fn solve(&self, y: &mut [Complex64], work: &mut Work) {
+        match (self, &mut work.solve) {
+            (Factor::Real(factor), Some(work)) => factor.factor.solve(y, work),
+            (Factor::Complex(factor), Some(work)) => factor.factor.solve(y, work),
+            (Factor::Lu(factor), _) => {
+                let n = y.len();
+                factor.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(y, n, 1));
+            }
+            _ => {}
+        }
+    }
+
+    /// Writes `T b`.
+    pub fn flux(&self, rows: &BoundaryRows, b: &[Complex64], flux: &mut [Complex64], work: &mut Work) {
+        match (self, &mut work.solve) {
+            (Factor::Real(factor), Some(work)) => factor.flux(rows, b, flux, work),
+            (Factor::Complex(factor), Some(work)) => factor.flux(rows, b, flux, work),
+            _ => {
+                rows.along(b, flux);
+                let mut y = work.take();
+                rows.inward(b, &mut y);
+                self.solve(&mut y, work);
+                rows.subtract_outward(&y, flux);
+                work.give_back(y);
             }
         }
     }
-    let whole = SparseColMat::try_new_from_triplets(unknowns, unknowns, &entries).map_err(|_| too_large)?;
-    let symbolic = SymbolicLu::try_new(whole.symbolic()).map_err(|_| too_large)?;
+}
+
+fn lu(triangle: &LowerTriangle, unknowns: usize) -> Result<Factor, Breakdown> {
+    let LowerTriangle { columns, values } = triangle;
+    let mut entries = Vec::with_capacity(2 * values.len());
+    for column in 0..unknowns {
+        for entry in columns.entries(column) {
+            let row = columns.rows[entry] as usize;
+            if row >= unknowns {
+                continue;
+            }
+            entries.push(Triplet::new(row, column, values[entry]));
+            if row != column {
+                entries.push(Triplet::new(column, row, values[entry]));
+            }
+        }
+    }
+    let whole = SparseColMat::try_new_from_triplets(unknowns, unknowns, &entries).map_err(|_| Breakdown::TooLarge)?;
+    let symbolic = SymbolicLu::try_new(whole.symbolic()).map_err(|_| Breakdown::TooLarge)?;
     let factor = Lu::try_new_with_symbolic(symbolic, whole.as_ref()).map_err(|error| match error {
-        LuError::SymbolicSingular { .. } => broken(Breakdown::Singular),
-        LuError::Generic(_) => too_large,
+        LuError::SymbolicSingular { .. } => Breakdown::Singular,
+        LuError::Generic(_) => Breakdown::TooLarge,
     })?;
     Ok(Factor::Lu(Box::new(factor)))
 }

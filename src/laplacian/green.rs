@@ -2,9 +2,9 @@
 
 use num_complex::Complex64;
 
-use super::ConformalLaplacian;
-use super::extension::black_neighbours;
+use super::{ConformalLaplacian, Work};
 use crate::quad_graph::QuadGraph;
+use crate::sparse::Lists;
 
 /// The Green's function G of an inner black vertex: `L G = 1` there and 0 at the other inner black vertices, G = 0 on the
 /// boundary.
@@ -19,7 +19,7 @@ pub struct Green {
 impl ConformalLaplacian {
     /// The Green's function of an inner black vertex far from the boundary; `None` where there is no such vertex, or
     /// no boundary.
-    pub fn green(&self, graph: &QuadGraph, work: &mut super::Work) -> Option<Green> {
+    pub fn green(&self, graph: &QuadGraph, work: &mut Work) -> Option<Green> {
         let pole = self.far_inside(graph)?;
         let mut y = work.take();
         y[self.inner_index(pole)?] = Complex64::ONE;
@@ -32,7 +32,8 @@ impl ConformalLaplacian {
 
     /// The last inner black vertex that a search reaches from the boundary, breadth first.
     fn far_inside(&self, graph: &QuadGraph) -> Option<u32> {
-        let around = black_neighbours(graph, &self.colouring);
+        let quads = self.colouring.quads(graph).zip(0..);
+        let around = Lists::new(graph.vertices, quads.flat_map(|(quad, q)| quad.black.map(|v| (v, q))));
         let mut reached = vec![false; graph.vertices];
         let mut queue = self.loops.black.clone();
         queue.iter().for_each(|&v| reached[v as usize] = true);

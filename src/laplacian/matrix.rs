@@ -1,23 +1,24 @@
-//! L_II as a sparse lower triangle, and the order of its unknowns.
+//! L as a sparse lower triangle, and the order of its unknowns.
 
 use num_complex::Complex64;
 
 use super::Colouring;
 use crate::quad_graph::QuadGraph;
-use crate::sparse::{Columns, Pattern, Stencils, dissect};
+use crate::sparse::{Columns, Lists, dissect};
 
-/// The inner black vertices in the order in which they are eliminated.
+/// Numbers of the black vertices: first the inner ones in the order in which they are eliminated, then those on the boundary.
 #[derive(Debug)]
 pub(super) struct Numbering {
     pub inner: Vec<u32>,
-    /// The place of every vertex in `inner`, or [`Numbering::OUTSIDE`].
+    /// The number of every vertex, or [`Numbering::NONE`].
     pub of_vertex: Vec<u32>,
     /// The black vertex that is held where there is no boundary.
     pub held: Option<u32>,
 }
 
 impl Numbering {
-    pub const OUTSIDE: u32 = u32::MAX;
+    /// Marks white vertices, and the one that is held.
+    pub const NONE: u32 = u32::MAX;
 
     /// Numbers the black vertices that are not on the boundary by nested dissection.
     pub fn new(graph: &QuadGraph, colouring: &Colouring, boundary: &[u32]) -> Self {
@@ -28,38 +29,109 @@ impl Numbering {
         };
         boundary.iter().chain(&held).for_each(|&v| is_inner[v as usize] = false);
         let diagonals: Vec<[u32; 4]> =
-            colouring.quads(graph).map(|q| [q.black[0], q.black[1], q.black[0], q.black[1]]).collect();
+            colouring.quads(graph).map(|quad| [quad.black[0], quad.black[1], quad.black[0], quad.black[1]]).collect();
         let inner = dissect(&diagonals, &graph.places, |v| is_inner[v as usize]);
-        let mut of_vertex = vec![Self::OUTSIDE; graph.vertices];
-        for (k, &v) in inner.iter().enumerate() {
+        let mut of_vertex = vec![Self::NONE; graph.vertices];
+        for (k, &v) in inner.iter().chain(boundary).enumerate() {
             of_vertex[v as usize] = k as u32;
         }
         Numbering { inner, of_vertex, held }
     }
 
+    /// Whether a number is that of an inner vertex.
+    pub fn is_inner(&self, number: u32) -> bool {
+        (number as usize) < self.inner.len()
+    }
+
     /// The number of vertex `v`, where it is an inner black one.
     pub fn index(&self, v: u32) -> Option<usize> {
-        Some(self.of_vertex[v as usize]).filter(|&k| k != Self::OUTSIDE).map(|k| k as usize)
+        Some(self.of_vertex[v as usize]).filter(|&k| self.is_inner(k)).map(|k| k as usize)
+    }
+
+    /// The boundary position of vertex `v`, where it is a black boundary vertex.
+    pub fn position(&self, v: u32) -> Option<usize> {
+        Some(self.of_vertex[v as usize])
+            .filter(|&k| k != Self::NONE && !self.is_inner(k))
+            .map(|k| k as usize - self.inner.len())
     }
 }
 
-/// The lower triangle of L_II.
-pub(super) struct InnerMatrix {
+/// The lower triangle of L_II, or of all L.
+pub(super) struct LowerTriangle {
     pub columns: Columns,
     pub values: Vec<Complex64>,
 }
 
-/// Assembles L_II: every quad adds ρ to the diagonal at i and j, −ρ between them.
-pub(super) fn inner_matrix(graph: &QuadGraph, colouring: &Colouring, numbering: &Numbering) -> InnerMatrix {
-    let diagonals: Vec<[u32; 2]> = colouring.quads(graph).map(|quad| quad.black).collect();
-    let pattern = Pattern::new(&[&Stencils::new(&diagonals)], &numbering.of_vertex, numbering.inner.len());
-    let mut values = vec![Complex64::ZERO; pattern.columns.rows.len()];
-    for (q, quad) in colouring.quads(graph).enumerate() {
-        for (&slot, value) in pattern.slots(0, q, 2).iter().zip([quad.rho, -quad.rho, quad.rho]) {
-            if slot != Pattern::NONE {
-                values[slot as usize] += value;
+impl LowerTriangle {
+    /// Assembles L on the first `size` numbers: every quad adds ρ to the diagonal at i and j, −ρ between them.
+    ///
+    /// Quads are sorted by the larger number of i and j, by counting. Taken in that order they fill the columns from top to bottom.
+    pub fn new(graph: &QuadGraph, colouring: &Colouring, numbering: &Numbering, size: usize) -> Self {
+        let number = |v: u32| Some(numbering.of_vertex[v as usize]).filter(|&k| (k as usize) < size);
+        let coupled = |q: usize| {
+            let [i, j] = colouring.quad(graph, q).black.map(number);
+            // An edge from a vertex to itself, on a closed surface, cancels.
+            Some((i?.min(j?), i?.max(j?))).filter(|(i, j)| i != j)
+        };
+        let rows = Lists::new(size, (0..graph.quads.len()).filter_map(|q| Some((coupled(q)?.1, q as u32))));
+        let mut offsets = vec![0u32; size + 1];
+        (0..graph.quads.len()).filter_map(coupled).for_each(|(column, _)| offsets[column as usize + 1] += 1);
+        for k in 0..size {
+            // One more for the diagonal.
+            offsets[k + 1] += offsets[k] + 1;
+        }
+        let entries = offsets[size] as usize;
+        let mut triangle = LowerTriangle {
+            columns: Columns { offsets, rows: vec![0; entries] },
+            values: vec![Complex64::ZERO; entries],
+        };
+        let Columns { offsets, rows: row_of } = &mut triangle.columns;
+        let mut next: Vec<u32> = offsets[..size].iter().map(|first| first + 1).collect();
+        let mut repeated = 0;
+        for row in 0..size as u32 {
+            row_of[offsets[row as usize] as usize] = row;
+            for &q in rows.of(row) {
+                let quad = colouring.quad(graph, q as usize);
+                let [i, j] = quad.black.map(|v| numbering.of_vertex[v as usize]);
+                let column = i.min(j) as usize;
+                let here = next[column] as usize;
+                // Several quads may have the same black diagonal.
+                if row_of[here - 1] == row {
+                    triangle.values[here - 1] -= quad.rho;
+                    repeated += 1;
+                } else {
+                    row_of[here] = row;
+                    triangle.values[here] = -quad.rho;
+                    next[column] += 1;
+                }
             }
         }
+        for quad in colouring.quads(graph).filter(|quad| quad.black[0] != quad.black[1]) {
+            for k in quad.black.into_iter().filter_map(number) {
+                triangle.values[offsets[k as usize] as usize] += quad.rho;
+            }
+        }
+        if repeated > 0 {
+            triangle.close_gaps(&next);
+        }
+        triangle
     }
-    InnerMatrix { columns: pattern.into_columns(), values }
+
+    /// Removes the places that columns do not use behind their last entries, at `end`.
+    fn close_gaps(&mut self, end: &[u32]) {
+        let Columns { offsets, rows } = &mut self.columns;
+        let mut kept = 0;
+        for (column, &end) in end.iter().enumerate() {
+            let first = offsets[column] as usize;
+            offsets[column] = kept as u32;
+            for entry in first..end as usize {
+                rows[kept] = rows[entry];
+                self.values[kept] = self.values[entry];
+                kept += 1;
+            }
+        }
+        offsets[end.len()] = kept as u32;
+        rows.truncate(kept);
+        self.values.truncate(kept);
+    }
 }

@@ -35,7 +35,7 @@ use crate::quad_graph::QuadGraph;
 use crate::sparse::Breakdown;
 use factor::Factor;
 use loops::Loops;
-use matrix::{Numbering, inner_matrix};
+use matrix::{LowerTriangle, Numbering};
 use rows::BoundaryRows;
 
 /// There is no conformal Laplacian, or no factor of it.
@@ -66,6 +66,9 @@ pub enum LaplacianError {
     },
 }
 
+/// Up to this many black boundary vertices T is formed as a dense matrix, by leaving the boundary to the end of the elimination.
+const DENSE: usize = 1000;
+
 /// The conformal Laplacian L of a quad graph, with a factor of `L_II`.
 ///
 /// I are the inner black vertices, B the black boundary vertices. On a closed surface B is empty, and one black vertex is
@@ -90,13 +93,28 @@ impl ConformalLaplacian {
     /// # Errors
     /// [`LaplacianError`]
     pub fn new(graph: &QuadGraph, factoring: impl FnOnce()) -> Result<Self, LaplacianError> {
-        let colouring = Colouring::new(graph)?;
+        ConformalLaplacian::with(graph, Colouring::new(graph)?, DENSE, factoring)
+    }
+
+    /// The same for given colours, with T as a dense matrix for at most `dense` black boundary vertices. 0 is best where T is not
+    /// needed.
+    ///
+    /// # Errors
+    /// [`LaplacianError`]
+    pub fn with(
+        graph: &QuadGraph,
+        colouring: Colouring,
+        dense: usize,
+        factoring: impl FnOnce(),
+    ) -> Result<Self, LaplacianError> {
         let loops = Loops::new(graph, &colouring)?;
         let numbering = Numbering::new(graph, &colouring, &loops.black);
-        let matrix = inner_matrix(graph, &colouring, &numbering);
+        let rows = BoundaryRows::new(graph, &colouring, &numbering, loops.black.len());
+        let is_dense = loops.black.len() <= dense && Factor::is_symmetric(graph);
+        let border = if is_dense { loops.black.len() } else { 0 };
+        let triangle = LowerTriangle::new(graph, &colouring, &numbering, numbering.inner.len() + border);
         factoring();
-        let factor = Factor::new(graph, &matrix)?;
-        let rows = BoundaryRows::new(graph, &colouring, &numbering, &loops.black);
+        let factor = Factor::new(graph, &triangle, border, &rows)?;
         let mut laplacian = ConformalLaplacian { colouring, numbering, loops, rows, factor, shifts: Vec::new() };
         laplacian.shifts = laplacian.shifts_between_loops(graph);
         Ok(laplacian)
@@ -159,7 +177,7 @@ impl ConformalLaplacian {
 
     /// Memory for solves, to be used again and again.
     pub fn work(&self) -> Work {
-        Work::new(self.numbering.inner.len())
+        self.factor.work(self.numbering.inner.len())
     }
 
     /// Overwrites y (m) with `L_II⁻¹ y`.
@@ -170,12 +188,7 @@ impl ConformalLaplacian {
     /// Writes the flux `T b = L_BB b − L_BI L_II⁻¹ L_IB b` (n) of black boundary values b (n). T is complex symmetric:
     /// its Hermitian transpose takes x to the conjugate of `T x̄`.
     pub fn flux(&self, b: &[Complex64], flux: &mut [Complex64], work: &mut Work) {
-        self.rows.along(b, flux);
-        let mut y = work.take();
-        self.rows.inward(b, &mut y);
-        self.factor.solve(&mut y, work);
-        self.rows.subtract_outward(&y, flux);
-        work.give_back(y);
+        self.factor.flux(&self.rows, b, flux, work);
     }
 
     /// Writes the white boundary values w (n), given black ones b and their [flux](ConformalLaplacian::flux).

@@ -18,28 +18,33 @@ pub(super) struct BoundaryRows {
 }
 
 impl BoundaryRows {
-    pub fn new(graph: &QuadGraph, colouring: &Colouring, numbering: &Numbering, black: &[u32]) -> Self {
-        let mut position = vec![u32::MAX; graph.vertices];
-        for (k, &v) in black.iter().enumerate() {
-            position[v as usize] = k as u32;
-        }
+    pub fn new(graph: &QuadGraph, colouring: &Colouring, numbering: &Numbering, boundary: usize) -> Self {
         let mut rows =
-            BoundaryRows { diagonal: vec![Complex64::ZERO; black.len()], pairs: Vec::new(), outward: Vec::new() };
+            BoundaryRows { diagonal: vec![Complex64::ZERO; boundary], pairs: Vec::new(), outward: Vec::new() };
         for quad in colouring.quads(graph) {
-            let [k, l] = quad.black.map(|v| position[v as usize]);
-            let [i, j] = quad.black.map(|v| numbering.of_vertex[v as usize]);
-            for k in [k, l].into_iter().filter(|&k| k != u32::MAX) {
-                rows.diagonal[k as usize] += quad.rho;
-            }
-            match (k != u32::MAX, l != u32::MAX) {
-                (true, true) => rows.pairs.push((k, l, -quad.rho)),
-                (true, false) => rows.outward.push((k, j, -quad.rho)),
-                (false, true) => rows.outward.push((l, i, -quad.rho)),
-                (false, false) => {}
+            match quad.black.map(|v| numbering.position(v)) {
+                [None, None] => {}
+                [Some(k), Some(l)] => {
+                    rows.diagonal[k] += quad.rho;
+                    rows.diagonal[l] += quad.rho;
+                    rows.pairs.push((k as u32, l as u32, -quad.rho));
+                }
+                [Some(k), None] => rows.add_outward(k, numbering.of_vertex[quad.black[1] as usize], quad.rho),
+                [None, Some(k)] => rows.add_outward(k, numbering.of_vertex[quad.black[0] as usize], quad.rho),
             }
         }
         rows.outward.sort_unstable_by_key(|&(k, i, _)| (k, i));
         rows
+    }
+
+    fn add_outward(&mut self, position: usize, inner: u32, rho: Complex64) {
+        self.diagonal[position] += rho;
+        self.outward.push((position as u32, inner, -rho));
+    }
+
+    /// The inner numbers that are coupled with the boundary, some of them repeatedly.
+    pub fn ports(&self) -> impl Iterator<Item = u32> {
+        self.outward.iter().map(|&(_, inner, _)| inner)
     }
 
     /// `out = L_BB b`

@@ -1,47 +1,56 @@
-//! `M = C Cᵀ` of complex *symmetric* matrices (no conjugate), left-looking by supernodes.
+//! `M = C Cᵀ` of real or complex *symmetric* matrices (no conjugate), left-looking by supernodes.
 
 use faer::linalg::matmul::matmul_with_conj;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place_with_conj;
 use faer::reborrow::{Reborrow, ReborrowMut};
-use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
-use faer::sparse::linalg::cholesky::{CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw};
 use faer::{Accum, Conj, MatMut, MatRef, Par};
 use num_complex::Complex64;
+use pulp::Arch;
 
-use super::{Analysis, Breakdown, Columns, Order};
+use super::entry::Entry;
+use super::supernodes::Supernodes;
+use super::symmetric_panel::{SolveWork, SymmetricPanel, products};
+use super::{Breakdown, Columns};
 
 /// Diagonal blocks up to this size are factorised column by column.
 const SMALL: usize = 16;
 
-/// A factor C of a complex symmetric matrix, `M = C Cᵀ`.
+/// A factor C of a symmetric matrix, `M = C Cᵀ`, real or complex, or of its leading part.
 ///
 /// There is no pivoting. Where Re M is positive definite every Schur complement has a positive definite real part too, and growth is
 /// bounded; the pivots are the principal square roots.
+///
+/// With a *border* the last unknowns are not eliminated. M is then `[[I, ·], [B, D]]`, what is factorised is I, and the Schur complement
+/// `T = D − B I⁻¹ Bᵀ` is there as a dense matrix.
 #[derive(Debug)]
-pub struct SymmetricFactor {
-    symbolic: SymbolicCholesky<u32>,
-    values: Vec<Complex64>,
+pub struct SymmetricFactor<T> {
+    nodes: Supernodes,
+    values: Vec<T>,
+    border: usize,
 }
 
-impl SymmetricFactor {
-    /// Factorises the matrix whose lower triangle has these values; unknowns are eliminated as they are numbered.
+impl<T: Entry> SymmetricFactor<T> {
+    /// Factorises the matrix whose lower triangle has these values, but for the last `border` unknowns. The others are eliminated
+    /// as they are numbered.
     ///
     /// # Errors
-    /// A pivot that is 0 or not finite; lack of memory or of indices.
-    pub fn new(columns: &Columns, values: &[Complex64]) -> Result<Self, Breakdown> {
-        let by_supernodes = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..Default::default()
-        };
-        let symbolic = Analysis::with(columns, Order::AsGiven, by_supernodes)?.into_symbolic();
-        let SymbolicCholeskyRaw::Supernodal(nodes) = symbolic.raw() else { return Err(Breakdown::TooLarge) };
-        let values = numeric(nodes, columns, values)?;
-        Ok(SymmetricFactor { symbolic, values })
+    /// A pivot that is 0 or not finite (real matrices: whose square is negative); lack of memory or of indices.
+    pub fn new(columns: &Columns, values: &[T], border: usize) -> Result<Self, Breakdown> {
+        let nodes = Supernodes::new(columns, border)?;
+        let mut values = numeric(&nodes, columns, values, border)?;
+        if border > 0 {
+            complete(&mut values[nodes.panel(nodes.len() - 1)], border);
+        }
+        Ok(SymmetricFactor { nodes, values, border })
     }
 
-    /// Values of the factor.
+    /// Number of rows that are eliminated.
+    pub fn size(&self) -> usize {
+        self.nodes.size() - self.border
+    }
+
+    /// Values of the factor and of T.
     pub fn len(&self) -> usize {
         self.values.len()
     }
@@ -51,102 +60,148 @@ impl SymmetricFactor {
         self.values.is_empty()
     }
 
-    /// Overwrites x with `M⁻¹ x`.
-    pub fn solve_in_place(&self, x: &mut [Complex64]) {
-        let SymbolicCholeskyRaw::Supernodal(nodes) = self.symbolic.raw() else { return };
-        for s in 0..nodes.n_supernodes() {
-            let Panel { start, width, below, values } = Panel::new(nodes, &self.values, s);
-            let height = width + below.len();
-            for j in 0..width {
-                let column = &values[j * height..(j + 1) * height];
-                let t = x[start + j] / column[j];
-                x[start + j] = t;
-                for (x, c) in x[start + j + 1..start + width].iter_mut().zip(&column[j + 1..width]) {
-                    *x -= c * t;
-                }
-                for (&row, c) in below.iter().zip(&column[width..]) {
-                    x[row as usize] -= c * t;
+    /// Writes T b, b being the values of the border.
+    pub fn schur_product(&self, b: &[Complex64], product: &mut [Complex64], work: &mut SolveWork) {
+        if self.border == 0 {
+            return;
+        }
+        let n = self.border;
+        let t = &self.values[self.nodes.panel(self.nodes.len() - 1)];
+        let (first, second) = (&mut work.first[..T::PARTS * n], &mut work.second[..T::PARTS * n]);
+        for (i, &b) in b.iter().enumerate() {
+            T::put(i, b, first, second);
+        }
+        Arch::new().dispatch(|| {
+            for (two, product) in t.chunks(2 * n).zip(product.chunks_mut(2)) {
+                match product {
+                    [p, q] => [*p, *q] = products([&two[..n], &two[n..]], first, second),
+                    [p] => [*p] = products([two], first, second),
+                    _ => {}
                 }
             }
-        }
-        for s in (0..nodes.n_supernodes()).rev() {
-            let Panel { start, width, below, values } = Panel::new(nodes, &self.values, s);
-            let height = width + below.len();
-            for j in (0..width).rev() {
-                let column = &values[j * height..(j + 1) * height];
-                let own = x[start + j + 1..start + width].iter().zip(&column[j + 1..width]).map(|(x, c)| c * x);
-                let others = below.iter().zip(&column[width..]).map(|(&row, c)| c * x[row as usize]);
-                x[start + j] = (x[start + j] - own.sum::<Complex64>() - others.sum::<Complex64>()) / column[j];
-            }
-        }
+        });
+    }
+
+    /// Supernodes of elimination: all but the border.
+    fn count(&self) -> u32 {
+        (self.nodes.len() - usize::from(self.border > 0)) as u32
+    }
+
+    /// The supernodes that a solve with a right-hand side on these rows reaches, ascending.
+    pub fn closure(&self, rows: impl Iterator<Item = u32>) -> Vec<u32> {
+        self.nodes.closure(rows)
+    }
+
+    /// Memory for solves.
+    pub fn work(&self) -> SolveWork {
+        let height = T::PARTS * (0..self.nodes.len()).map(|s| self.nodes.height(s)).max().unwrap_or(0);
+        SolveWork { x: vec![Complex64::ZERO; self.nodes.size()], first: vec![0.0; height], second: vec![0.0; height] }
+    }
+
+    /// Overwrites y with `I⁻¹ y`.
+    pub fn solve(&self, y: &mut [Complex64], work: &mut SolveWork) {
+        let size = self.size();
+        work.x[..size].copy_from_slice(y);
+        self.forward(0..self.count(), work);
+        work.x[size..].fill(Complex64::ZERO);
+        self.backward((0..self.count()).rev(), work);
+        y.copy_from_slice(&work.x[..size]);
+        work.x[..size].fill(Complex64::ZERO);
+    }
+
+    /// Solves without a border for a right-hand side on rows whose [closure](SymmetricFactor::closure) is given: `put` adds it to
+    /// a column of zeros, `take` reads the solution, which is right on the rows of the closure.
+    pub fn solve_within(
+        &self,
+        closure: &[u32],
+        work: &mut SolveWork,
+        put: impl FnOnce(&mut [Complex64]),
+        take: impl FnOnce(&[Complex64]),
+    ) {
+        put(&mut work.x);
+        self.forward(closure.iter().copied(), work);
+        self.backward(closure.iter().rev().copied(), work);
+        take(&work.x);
+        closure.iter().for_each(|&s| work.x[self.nodes.own(s as usize)].fill(Complex64::ZERO));
+    }
+
+    /// Writes `−I⁻¹ Bᵀ b`, b being the values of the border.
+    pub fn extend(&self, b: &[Complex64], y: &mut [Complex64], work: &mut SolveWork) {
+        let size = self.size();
+        work.x[size..].copy_from_slice(b);
+        self.backward((0..self.count()).rev(), work);
+        y.copy_from_slice(&work.x[..size]);
+        work.x.fill(Complex64::ZERO);
+    }
+
+    fn panel(&self, s: u32) -> SymmetricPanel<'_, T> {
+        panel(&self.nodes, &self.values, s as usize)
+    }
+
+    fn forward(&self, supernodes: impl Iterator<Item = u32>, work: &mut SolveWork) {
+        // In the widest vectors that the processor has.
+        Arch::new().dispatch(|| supernodes.for_each(|s| self.panel(s).forward(work)));
+    }
+
+    fn backward(&self, supernodes: impl Iterator<Item = u32>, work: &mut SolveWork) {
+        Arch::new().dispatch(|| supernodes.for_each(|s| self.panel(s).backward(work)));
     }
 }
 
-/// The columns of a supernode, dense, one behind the other: its own rows, then those below.
-struct Panel<'a> {
-    start: usize,
-    width: usize,
-    below: &'a [u32],
-    values: &'a [Complex64],
+#[inline(always)]
+fn panel<'a, T>(nodes: &'a Supernodes, values: &'a [T], s: usize) -> SymmetricPanel<'a, T> {
+    let own = nodes.own(s);
+    SymmetricPanel { start: own.start, width: own.len(), below: nodes.below(s), values: &values[nodes.panel(s)] }
 }
 
-impl<'a> Panel<'a> {
-    fn new(nodes: &'a SymbolicSupernodalCholesky<u32>, values: &'a [Complex64], s: usize) -> Self {
-        let (start, end) = (nodes.supernode_begin()[s] as usize, nodes.supernode_end()[s] as usize);
-        let below = nodes.supernode(s).pattern();
-        let (width, at) = (end - start, nodes.col_ptr_for_val()[s] as usize);
-        Panel { start, width, below, values: &values[at..][..width * (width + below.len())] }
+/// Copies the lower triangle of a symmetric matrix into the upper one.
+fn complete<T: Copy>(values: &mut [T], n: usize) {
+    for column in 0..n {
+        for row in column + 1..n {
+            values[row * n + column] = values[column * n + row];
+        }
     }
 }
 
 const NONE: u32 = u32::MAX;
 
 /// The values of C, supernode by supernode. Each gathers the products of the earlier ones that have rows in it, which are kept
-/// in lists by the supernode that needs them next.
-fn numeric(
-    nodes: &SymbolicSupernodalCholesky<u32>,
-    columns: &Columns,
-    entries: &[Complex64],
-) -> Result<Vec<Complex64>, Breakdown> {
-    let count = nodes.n_supernodes();
-    let (begin, end, at) = (nodes.supernode_begin(), nodes.supernode_end(), nodes.col_ptr_for_val());
+/// in lists by the supernode that needs them next. The last supernode is left as it is then, where it is the border.
+fn numeric<T: Entry>(nodes: &Supernodes, columns: &Columns, entries: &[T], border: usize) -> Result<Vec<T>, Breakdown> {
+    let count = nodes.len();
     let mut values = Vec::new();
-    values.try_reserve_exact(nodes.len_val()).map_err(|_| Breakdown::TooLarge)?;
-    values.resize(nodes.len_val(), Complex64::ZERO);
+    values.try_reserve_exact(nodes.value_count()).map_err(|_| Breakdown::TooLarge)?;
+    values.resize(nodes.value_count(), T::ZERO);
     let mut node_of = vec![0u32; columns.size()];
-    for s in 0..count {
-        node_of[begin[s] as usize..end[s] as usize].fill(s as u32);
-    }
+    (0..count).for_each(|s| node_of[nodes.own(s)].fill(s as u32));
     let mut local = vec![0u32; columns.size()];
     // The earlier supernodes that contribute to each one next, as linked lists, and the first row that they contribute to.
     let (mut head, mut next, mut from) = (vec![NONE; count], vec![NONE; count], vec![0u32; count]);
-    let mut product: Vec<Complex64> = Vec::new();
+    let mut product: Vec<T> = Vec::new();
     for s in 0..count {
-        let (start, stop) = (begin[s] as usize, end[s] as usize);
-        let width = stop - start;
-        let below = nodes.supernode(s).pattern();
-        let height = width + below.len();
-        for (k, row) in (start..stop).chain(below.iter().map(|&row| row as usize)).enumerate() {
+        let (own, below) = (nodes.own(s), nodes.below(s));
+        let (width, height) = (own.len(), nodes.height(s));
+        for (k, row) in own.clone().chain(below.iter().map(|&row| row as usize)).enumerate() {
             local[row] = k as u32;
         }
-        let (done, rest) = values.split_at_mut(at[s] as usize);
-        let panel = &mut rest[..width * height];
-        for column in start..stop {
+        let (done, rest) = values.split_at_mut(nodes.panel(s).start);
+        let target = &mut rest[..width * height];
+        for (column, target) in own.clone().zip(target.chunks_exact_mut(height)) {
             for entry in columns.entries(column) {
-                panel[(column - start) * height + local[columns.rows[entry] as usize] as usize] = entries[entry];
+                target[local[columns.rows[entry] as usize] as usize] = entries[entry];
             }
         }
         let mut d = head[s];
         while d != NONE {
-            let earlier = Panel::new(nodes, done, d as usize);
+            let earlier = panel(nodes, done, d as usize);
             let first = from[d as usize] as usize;
-            let last = first + earlier.below[first..].partition_point(|&row| (row as usize) < stop);
-            let (rows, width) = (earlier.below.len() - first, last - first);
+            let last = first + earlier.below[first..].partition_point(|&row| (row as usize) < own.end);
             multiply(&earlier, first, last, &mut product);
-            for j in 0..width {
-                let target = local[earlier.below[first + j] as usize] as usize * height;
-                for i in j..rows {
-                    panel[target + local[earlier.below[first + i] as usize] as usize] -= product[j * rows + i];
+            let rows = &earlier.below[first..];
+            for (j, product) in product.chunks_exact(rows.len()).enumerate() {
+                let target = &mut target[local[rows[j] as usize] as usize * height..][..height];
+                for (&row, &x) in rows[j..].iter().zip(&product[j..]) {
+                    target[local[row as usize] as usize] -= x;
                 }
             }
             let following = next[d as usize];
@@ -158,13 +213,16 @@ fn numeric(
             }
             d = following;
         }
-        let (mut own, lower) = MatMut::from_column_major_slice_mut(panel, height, width).split_at_row_mut(width);
-        dense(own.rb_mut());
-        if (0..width).any(|j| !own[(j, j)].is_finite() || own[(j, j)] == Complex64::ZERO) {
+        if border > 0 && s + 1 == count {
+            break;
+        }
+        let (mut square, lower) = MatMut::from_column_major_slice_mut(target, height, width).split_at_row_mut(width);
+        dense(square.rb_mut());
+        if (0..width).any(|j| !square[(j, j)].is_pivot()) {
             return Err(Breakdown::Singular);
         }
         if let Some(&row) = below.first() {
-            solve_right(own.rb(), lower);
+            solve_right(square.rb(), lower);
             let to = node_of[row as usize] as usize;
             next[s] = head[to];
             head[to] = s as u32;
@@ -174,12 +232,11 @@ fn numeric(
 }
 
 /// The lower part of `D Eᵀ`: D are the rows `first ..` below an earlier supernode, E those in `first .. last`.
-fn multiply(earlier: &Panel, first: usize, last: usize, product: &mut Vec<Complex64>) {
+fn multiply<T: Entry>(earlier: &SymmetricPanel<T>, first: usize, last: usize, product: &mut Vec<T>) {
     let (rows, columns) = (earlier.below.len() - first, last - first);
     product.clear();
-    product.resize(rows * columns, Complex64::ZERO);
-    let height = earlier.width + earlier.below.len();
-    let panel = MatRef::from_column_major_slice(earlier.values, height, earlier.width);
+    product.resize(rows * columns, T::ZERO);
+    let panel = MatRef::from_column_major_slice(earlier.values, earlier.height(), earlier.width);
     let top = panel.get(earlier.width + first..earlier.width + last, ..);
     let rest = panel.get(earlier.width + last.., ..);
     let (square, lower) = MatMut::from_column_major_slice_mut(product, rows, columns).split_at_row_mut(columns);
@@ -193,22 +250,22 @@ fn multiply(earlier: &Panel, first: usize, last: usize, product: &mut Vec<Comple
         top.transpose(),
         BlockStructure::Rectangular,
         Conj::No,
-        Complex64::ONE,
+        T::ONE,
         Par::Seq,
     );
     if rows > columns {
-        matmul_with_conj(lower, Accum::Replace, rest, Conj::No, top.transpose(), Conj::No, Complex64::ONE, Par::Seq);
+        matmul_with_conj(lower, Accum::Replace, rest, Conj::No, top.transpose(), Conj::No, T::ONE, Par::Seq);
     }
 }
 
 /// Overwrites the lower triangle of A with that of C, `A = C Cᵀ`.
-fn dense(mut a: MatMut<'_, Complex64>) {
+fn dense<T: Entry>(mut a: MatMut<'_, T>) {
     let n = a.nrows();
     if n <= SMALL {
         for j in 0..n {
-            let pivot = a[(j, j)].sqrt();
+            let pivot = a[(j, j)].root();
             a[(j, j)] = pivot;
-            let inverse = pivot.inv();
+            let inverse = pivot.inverse();
             for i in j + 1..n {
                 a[(i, j)] *= inverse;
             }
@@ -236,13 +293,109 @@ fn dense(mut a: MatMut<'_, Complex64>) {
         below.rb().transpose(),
         BlockStructure::Rectangular,
         Conj::No,
-        -Complex64::ONE,
+        -T::ONE,
         Par::Seq,
     );
     dense(rest);
 }
 
 /// `B := B C⁻ᵀ`
-fn solve_right(c: MatRef<'_, Complex64>, b: MatMut<'_, Complex64>) {
+fn solve_right<T: Entry>(c: MatRef<'_, T>, b: MatMut<'_, T>) {
     solve_lower_triangular_in_place_with_conj(c, Conj::No, b.transpose_mut(), Par::Seq);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sparse::Lists;
+
+    /// Numbers in [−1, 1), from a linear congruence.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    /// A sparse symmetric matrix of n rows whose real part is positive definite, as a lower triangle and in full.
+    fn matrix<T: Entry>(n: usize, seed: u64, entry: impl Fn(f64, f64) -> T) -> (Columns, Vec<T>, Vec<Vec<T>>) {
+        let mut numbers = Numbers(seed);
+        let mut full = vec![vec![T::ZERO; n]; n];
+        for i in 0..n {
+            full[i][i] = entry(6.0 + numbers.next(), 3.0 * numbers.next());
+            for j in [i / 2, i / 3, i.saturating_sub(1)].into_iter().filter(|&j| j < i) {
+                let value = entry(0.5 * numbers.next(), numbers.next());
+                (full[i][j], full[j][i]) = (value, value);
+            }
+        }
+        let entries = (0..n).flat_map(|j| (j..n).map(move |i| (i, j)));
+        let used: Vec<(usize, usize)> = entries.filter(|&(i, j)| i == j || full[i][j].is_pivot()).collect();
+        let lists = Lists::new(n, used.iter().map(|&(i, j)| (j as u32, i as u32)));
+        let offsets = (0..=n as u32).map(|j| if j == 0 { 0 } else { lists.range(j - 1).end as u32 }).collect();
+        let values = used.iter().map(|&(i, j)| full[i][j]).collect();
+        (Columns { offsets, rows: lists.items().to_vec() }, values, full)
+    }
+
+    fn multiply_by<T: Entry>(full: &[Vec<T>], x: &[Complex64]) -> Vec<Complex64> {
+        full.iter().map(|row| row.iter().zip(x).map(|(&c, &x)| c * x).sum()).collect()
+    }
+
+    fn apart(a: &[Complex64], b: &[Complex64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    }
+
+    fn solves<T: Entry>(entry: impl Fn(f64, f64) -> T + Copy) {
+        for (n, border) in [(1, 0), (5, 0), (40, 0), (200, 0), (200, 1), (200, 13), (60, 59)] {
+            let (columns, values, full) = matrix(n, n as u64, entry);
+            let factor = SymmetricFactor::new(&columns, &values, border).unwrap();
+            let mut work = factor.work();
+            let mut numbers = Numbers(9);
+            let x: Vec<Complex64> = (0..n).map(|_| Complex64::new(numbers.next(), numbers.next())).collect();
+            // [[I, Bᵀ], [B, D]] (y, b) = (0, T b) with y = −I⁻¹ Bᵀ b.
+            let size = n - border;
+            let mut whole = x.clone();
+            factor.extend(&x[size..], &mut whole[..size], &mut work);
+            let product = multiply_by(&full, &whole);
+            let mut schur = vec![Complex64::ZERO; border];
+            factor.schur_product(&x[size..], &mut schur, &mut work);
+            assert!(apart(&product[..size], &vec![Complex64::ZERO; size]) < 1e-13, "{n} {border}");
+            assert!(apart(&product[size..], &schur) < 1e-13, "{n} {border}");
+            // I y = x
+            let mut y = x[..size].to_vec();
+            factor.solve(&mut y, &mut work);
+            y.resize(n, Complex64::ZERO);
+            assert!(apart(&multiply_by(&full, &y)[..size], &x[..size]) < 1e-13, "{n} {border}");
+            if border == 0 {
+                let rows = [n as u32 / 3, n as u32 / 5];
+                let closure = factor.closure(rows.into_iter());
+                let mut y = vec![Complex64::ZERO; n];
+                rows.iter().for_each(|&row| y[row as usize] = x[row as usize]);
+                let right = y.clone();
+                factor.solve(&mut y, &mut work);
+                let put = |x: &mut [Complex64]| x.copy_from_slice(&right);
+                factor.solve_within(&closure, &mut work, put, |x| {
+                    rows.iter().for_each(|&row| assert!((x[row as usize] - y[row as usize]).norm() < 1e-14));
+                });
+            }
+            assert!(work.x.iter().all(|x| *x == Complex64::ZERO), "{n} {border}");
+        }
+    }
+
+    #[test]
+    fn complex_symmetric_factors_solve() {
+        solves(Complex64::new);
+    }
+
+    #[test]
+    fn real_factors_solve() {
+        solves(|re, _| re);
+    }
+
+    #[test]
+    fn a_real_matrix_that_is_not_positive_definite_has_no_factor() {
+        let columns = Columns { offsets: vec![0, 2, 3], rows: vec![0, 1, 1] };
+        assert_eq!(SymmetricFactor::new(&columns, &[1.0, 2.0, 1.0], 0).unwrap_err(), Breakdown::Singular);
+    }
 }

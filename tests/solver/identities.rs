@@ -175,7 +175,7 @@ fn the_square_system_needs_no_sign_of_rho() {
     assert!(graph.min_re_rho() < -0.5);
     let z = places(&disc, "circumcentre");
     let problem = LinearProblem::new(&graph, Weight::Integral, &hold_every_second(&graph, &z)).expect("square");
-    for backend in ["auto", "cotan", "lu", "cholesky", "qr"] {
+    for backend in ["auto", "cotan", "laplacian", "lu", "cholesky", "qr"] {
         let solution = solve_linear(&problem, backend, &mut Silent).unwrap_or_else(|e| panic!("{e}"));
         let d = largest_difference(&z, &solution.z);
         assert!(d <= 1e-10, "{backend}: {d:e}");

@@ -1,7 +1,7 @@
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 use riemap::input::Input;
-use riemap::laplacian::{ConformalLaplacian, LaplacianError};
+use riemap::laplacian::{Colouring, ConformalLaplacian, LaplacianError};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, dual_point};
 use riemap::surface::oriented_mesh::OrientedMesh;
@@ -41,6 +41,11 @@ fn size(z: &[Complex64]) -> f64 {
 fn apart(a: &[Complex64], b: &[Complex64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+}
+
+/// The same with T as a dense matrix for at most `dense` boundary vertices.
+fn laplacian_with(graph: &QuadGraph, dense: usize) -> ConformalLaplacian {
+    ConformalLaplacian::with(graph, Colouring::new(graph).unwrap(), dense, || ()).unwrap()
 }
 
 /// L on all vertices, by its definition.
@@ -95,12 +100,37 @@ fn the_flux_is_that_of_the_dense_schur_complement_which_is_symmetric() {
         let inverse = part(&i, &i).lu().solve(&part(&i, &b)).unwrap();
         let t = part(&b, &b) - part(&b, &i) * inverse;
         assert!((&t - t.transpose()).camax() < 1e-11 * t.camax(), "{name} {dual}");
-        for k in 0..n {
-            let mut unit = vec![Complex64::ZERO; n];
-            unit[k] = Complex64::ONE;
-            let column: Vec<Complex64> = t.column(k).iter().copied().collect();
-            assert!(apart(&flux(&laplacian, &unit), &column) < 1e-11 * t.camax(), "{name} {dual} {k}");
+        for dense in [0, n] {
+            let laplacian = laplacian_with(&graph, dense);
+            for k in 0..n {
+                let mut unit = vec![Complex64::ZERO; n];
+                unit[k] = Complex64::ONE;
+                let column: Vec<Complex64> = t.column(k).iter().copied().collect();
+                assert!(apart(&flux(&laplacian, &unit), &column) < 1e-11 * t.camax(), "{name} {dual} {dense} {k}");
+            }
         }
+    }
+}
+
+#[test]
+fn extensions_do_not_depend_on_how_t_is_kept() {
+    for (name, dual) in MESHES {
+        let graph = graph_of(&disc_of(name), dual);
+        let [pruned, dense] = [0, usize::MAX].map(|dense| laplacian_with(&graph, dense));
+        let b = random(pruned.len(), 6);
+        let [z, other] = [&pruned, &dense].map(|l| l.extend(&graph, &b, Complex64::ZERO, &mut l.work()));
+        assert!(apart(&z, &other) < 1e-11 * size(&z), "{name} {dual}");
+        let right = random(pruned.inner().len(), 7);
+        let [y, other] = [&pruned, &dense].map(|l| {
+            let mut work = l.work();
+            let mut y = right.clone();
+            // What a flux leaves behind must not matter.
+            l.flux(&b, &mut vec![Complex64::ZERO; b.len()], &mut work);
+            l.inner_solve(&mut y, &mut work);
+            l.inner_solve(&mut right.clone(), &mut work);
+            y
+        });
+        assert!(apart(&y, &other) < 1e-11 * size(&y), "{name} {dual}");
     }
 }
 

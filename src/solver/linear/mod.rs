@@ -1,6 +1,7 @@
 //! Direct solvers. A new one is one file and one row of [`LINEAR_BACKENDS`].
 
 mod cotan;
+mod laplacian;
 mod lu;
 mod nalgebra_cholesky;
 pub(super) mod normal;
@@ -38,6 +39,7 @@ pub trait LinearBackend: Sync {
 /// All direct backends by name.
 pub static LINEAR_BACKENDS: &[&dyn LinearBackend] = &[
     &cotan::Cotan,
+    &laplacian::Laplacian,
     &normal::RealCholesky,
     &normal::HermitianCholesky,
     &lu::Lu,
@@ -101,7 +103,7 @@ pub enum Unsuitable {
     },
     /// The held vertices are not all black boundary vertices and one white vertex.
     #[error(
-        "the cotan Laplacian needs all boundary vertices of the mesh held, no other, and one dual vertex (--hold primal)"
+        "the conformal Laplacian needs all boundary vertices of the mesh held, no other, and one dual vertex (--hold primal)"
     )]
     NotPrimal,
 }
@@ -220,11 +222,13 @@ pub fn solve_linear(
 
 /// The backends that are exact for `problem`, the fastest first; each later one is for where those before break down.
 ///
-/// Square: the real Laplacian where ρ is real, else LU. Least squares: Cholesky of the normal equations, real where
+/// Square: the conformal Laplacian where the mesh's boundary is held, real where ρ is; else LU. Least squares: Cholesky of the normal equations, real where
 /// they are, else Hermitian; QR, which does not square the condition number, last.
 pub fn automatic(problem: &LinearProblem) -> &'static [&'static dyn LinearBackend] {
     if cotan::Cotan.suits(problem).is_ok() {
         &[&cotan::Cotan, &lu::Lu]
+    } else if laplacian::Laplacian.suits(problem).is_ok() {
+        &[&laplacian::Laplacian, &lu::Lu, &qr::Qr]
     } else if problem.is_square() {
         &[&lu::Lu, &qr::Qr]
     } else if normal::RealCholesky.suits(problem).is_ok() {

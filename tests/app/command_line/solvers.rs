@@ -49,7 +49,7 @@ fn auto_says_which_backend_it_took() {
     shell.write("t.obj", hill(7, 1.0, false));
     for (options, backend) in [
         (&["--dual", "circumcentre"][..], "cotan"),
-        (&["--hold", "primal"], "lu"),
+        (&["--hold", "primal"], "laplacian"),
         (&[], "cholesky-real"),
         (&["--weight", "unit"], "cholesky"),
     ] {

@@ -1,0 +1,74 @@
+use num_complex::Complex64;
+
+use super::{LinearBackend, SolveError, Unsuitable};
+use crate::laplacian::{Colouring, ConformalLaplacian, LaplacianError};
+use crate::problem::linear::LinearProblem;
+use crate::solver::{Observer, Phase};
+use crate::sparse::Breakdown;
+
+/// Solves the square system (2) on half of the vertices: `L_II z_I = −L_IB z_B` on black ones, of which those on the
+/// boundary are held, and white ones by adding up `z_f − z_g = iρ (z_j − z_i)` from the one that is held.
+pub(super) struct Laplacian;
+
+impl LinearBackend for Laplacian {
+    fn name(&self) -> &'static str {
+        "laplacian"
+    }
+
+    fn description(&self) -> &'static str {
+        "conformal Laplacian, complex symmetric, on half of the vertices: mesh boundary and one dual vertex held, any ρ"
+    }
+
+    fn suits(&self, problem: &LinearProblem) -> Result<(), Unsuitable> {
+        match problem.is_square() && problem.graph.loops.len() == 1 && held(problem).is_some() {
+            true => Ok(()),
+            false => Err(Unsuitable::NotPrimal),
+        }
+    }
+
+    fn solve(&self, problem: &LinearProblem, watch: &mut dyn Observer) -> Result<Vec<Complex64>, SolveError> {
+        solve(self, problem, watch)
+    }
+}
+
+/// Solves (2) by the conformal Laplacian, in the name of `backend`.
+pub(super) fn solve(
+    backend: &dyn LinearBackend,
+    problem: &LinearProblem,
+    watch: &mut dyn Observer,
+) -> Result<Vec<Complex64>, SolveError> {
+    watch.phase(Phase::Assemble);
+    let unsuitable = SolveError::Unsuitable { backend: backend.name(), reason: Unsuitable::NotPrimal };
+    let Some((colouring, white)) = held(problem) else { return Err(unsuitable) };
+    let (graph, z0) = (problem.graph, &problem.elimination.z0);
+    let laplacian = ConformalLaplacian::with(graph, colouring, 0, || watch.phase(Phase::Factor));
+    let laplacian = laplacian.map_err(|error| match error {
+        LaplacianError::Factorisation { unknowns, reason: Breakdown::TooLarge } => {
+            SolveError::TooLarge { backend: backend.name(), size: unknowns }
+        }
+        LaplacianError::Factorisation { unknowns, .. } => {
+            SolveError::Singular { backend: backend.name(), size: unknowns }
+        }
+        LaplacianError::NotTwoColoured { .. } | LaplacianError::NotAlternating { .. } => unsuitable,
+    })?;
+    watch.phase(Phase::Solve);
+    let b: Vec<Complex64> = laplacian.black_boundary().iter().map(|&v| z0[v as usize]).collect();
+    let mut z = laplacian.extend_black(graph, &b, &mut laplacian.work());
+    z[white as usize] = z0[white as usize];
+    laplacian.add_up(graph, white, &mut z);
+    Ok(z)
+}
+
+/// Colours such that all black boundary vertices are held, and the one white vertex that is; `None` where the
+/// constraints are of another form.
+fn held(problem: &LinearProblem) -> Option<(Colouring, u32)> {
+    let (graph, elimination) = (problem.graph, &problem.elimination);
+    let colouring = Colouring::new(graph).ok()?;
+    [colouring.clone(), colouring.exchanged()].into_iter().find_map(|colouring| {
+        let mut on_boundary = graph.boundary.iter().filter(|&&v| colouring.is_black(v));
+        let is_held = on_boundary.all(|&v| !elimination.is_free(v));
+        let mut white = (0..graph.vertices as u32).filter(|&v| !elimination.is_free(v) && !colouring.is_black(v));
+        let first = white.next()?;
+        (is_held && white.next().is_none()).then_some((colouring, first))
+    })
+}
