@@ -222,8 +222,8 @@ pub fn solve_linear(
 
 /// The backends that are exact for `problem`, the fastest first; each later one is for where those before break down.
 ///
-/// Square: the conformal Laplacian where the mesh's boundary is held, real where ρ is; else LU. Least squares: Cholesky of the normal equations, real where
-/// they are, else Hermitian; QR, which does not square the condition number, last.
+/// Square: the conformal Laplacian where the mesh's boundary is held, real where ρ is; else LU. Least squares: Cholesky of
+/// the normal equations, real where they are, else Hermitian; QR, which does not square the condition number, last.
 pub fn automatic(problem: &LinearProblem) -> &'static [&'static dyn LinearBackend] {
     if cotan::Cotan.suits(problem).is_ok() {
         &[&cotan::Cotan, &lu::Lu]
