@@ -14,7 +14,7 @@ fn main() -> ExitCode {
         // Whoever reads our output, such as `head`, has enough.
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("riemap: error: {}", message(&error));
+            eprintln!("riemap: error: {}{}", message(&error), cli::advice(&error));
             if error.is::<cli::Interrupted>() { cli::EXIT_CODE.into() } else { ExitCode::FAILURE }
         }
     }

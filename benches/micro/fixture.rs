@@ -40,7 +40,7 @@ impl Mesh {
 
     /// Its free map, which is near an isometry.
     pub fn mapped(self) -> Mapped {
-        let options = MapOptions { boundary: Boundary::Free, ..MapOptions::default() };
+        let options = MapOptions { boundary: Boundary::FREE, ..MapOptions::default() };
         run(&self.input(), &options, &mut Silent).expect("a graph over a square has a free map")
     }
 }

@@ -59,7 +59,7 @@ pub enum ConstraintError {
         place: Complex64,
     },
     /// Too few boundary edges for a shape's corners.
-    #[error("the boundary has {vertices} mesh vertices, and the shape needs {needed}: use --shape circle")]
+    #[error("the boundary has {vertices} mesh vertices, and the shape needs {needed}")]
     TooFewBoundaryVertices {
         /// Mesh vertices on the boundary.
         vertices: usize,
@@ -67,10 +67,7 @@ pub enum ConstraintError {
         needed: usize,
     },
     /// Two boundary vertices that are held coincide at rest, so arc length does not tell them apart.
-    #[error(
-        "the boundary has no length between vertices {0} and {1}, and arc length does not tell them apart: merge them, or give the edge a \
-         length (--surrogate)"
-    )]
+    #[error("the boundary has no length between vertices {0} and {1}, and arc length does not tell them apart")]
     NoArcLength(u32, u32),
     /// Fewer equations than unknowns.
     #[error(

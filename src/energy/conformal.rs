@@ -21,8 +21,7 @@ pub enum Weight {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "quad {quad}, of the vertices {vertices:?} of the quad graph, has Re ρ = {re_rho:e}, and {count} in all are not \
-     positive: integral weights are not defined there; use --dual barycentre or --weight unit, or with --boundary fixed \
-     hold the mesh's boundary alone (--hold primal)"
+     positive: integral weights are not defined there"
 )]
 pub struct NonPositiveRho {
     /// The first such quad.

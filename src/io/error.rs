@@ -222,7 +222,7 @@ pub enum Defect {
     },
     /// A raw file of another length than its size says.
     #[error(
-        "{} × {} × {} values of {bytes_each} byte(s) do not make the {found} bytes of the file; check --size and --type",
+        "{} × {} × {} values of {bytes_each} byte(s) do not make the {found} bytes of the file",
         size[0], size[1], size[2]
     )]
     Length {

@@ -158,7 +158,7 @@ pub(super) fn planes(
         source => estimated[source as usize],
     };
     let normals = (0..disc.faces.len()).map(of_face).collect();
-    // Those of a file, asked for by --rho, are taken at their word.
+    // Those of a file, asked for by `rho`, are taken at their word.
     let exactly = options.normals.is_none() && options.rho == RhoSource::Normals;
     Ok(Some(match exactly {
         true => TangentPlanes::exactly(normals, options.rest),

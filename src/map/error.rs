@@ -1,4 +1,5 @@
 use super::lengths::LengthsError;
+use super::options::OptionsError;
 use crate::constraint::ConstraintError;
 use crate::energy::EnergyError;
 use crate::energy::conformal::NonPositiveRho;
@@ -13,17 +14,20 @@ use crate::surface::normals::NormalError;
 /// The request cannot be met.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MapError {
+    /// Options that contradict each other.
+    #[error(transparent)]
+    Options(#[from] OptionsError),
     /// A surface that is no disc and does not become one, or is too badly formed.
-    #[error("the surface cannot be mapped (`riemap info` tells more)")]
+    #[error("the surface cannot be mapped: {0}")]
     NoDisc(#[from] CutError),
     /// ρ from normals was asked for, and some face has none.
-    #[error("face {face} has no usable normal, and ρ from normals needs one for every face: use --rho positions")]
+    #[error("face {face} has no usable normal, and ρ from normals needs one for every face")]
     NoNormal {
         /// The first such face.
         face: usize,
     },
     /// ρ from normals was asked for on triangles.
-    #[error("a triangle mesh has its own tangent planes: --normals and --rho are for quad meshes and digital surfaces")]
+    #[error("a triangle mesh has its own tangent planes: normals are for quad meshes and digital surfaces")]
     NormalsOfTriangles,
     /// No estimate of the normals.
     #[error(transparent)]
@@ -35,9 +39,7 @@ pub enum MapError {
         height: f64,
     },
     /// A shape of its own for a face that is to be seen along a normal.
-    #[error(
-        "face {face} has no area, and its surrogate no place beside normals: leave --normals and --rho out, or --surrogate"
-    )]
+    #[error("face {face} has no area, and its surrogate no place beside normals")]
     SurrogateNormals {
         /// The first such face, as the source numbers them.
         face: u32,
@@ -59,42 +61,34 @@ pub enum MapError {
         known: String,
     },
     /// H alone with a boundary that is not held.
-    #[error("H alone leaves the boundary free to take any shape: hold it (--boundary fixed), or add C, L or Lb")]
+    #[error("H alone leaves the boundary free to take any shape: it must be fixed, or C, L or Lb be in the energy")]
     FreeBoundary,
     /// No periodic map.
     #[error(transparent)]
     Periodic(#[from] PeriodicError),
     /// An energy other than H for periodic maps.
-    #[error(
-        "periodic maps minimise H, and `{energy}` was asked for: leave --energy out, or cut the surface open (--cut)"
-    )]
+    #[error("periodic maps minimise H, and `{energy}` was asked for")]
     PeriodicEnergy {
         /// The energy.
         energy: String,
     },
     /// A vertex held where nothing is.
-    #[error("periodic maps hold no vertices: leave the pins out")]
+    #[error("periodic maps hold no vertices, and some are pinned")]
     PeriodicPins,
     /// A solver that periodic maps do not take.
-    #[error("periodic maps have a solver of their own, and `{name}` was asked for: leave --solver out")]
+    #[error("periodic maps have a solver of their own, and `{name}` was asked for")]
     PeriodicSolver {
         /// The name asked for.
         name: String,
     },
     /// Faces removed from, or a cut through, a surface that is to be closed.
-    #[error("periodic maps are of closed surfaces: leave --cut and --remove-face out, or choose another --boundary")]
+    #[error("periodic maps are of closed surfaces: nothing can be cut or removed")]
     PeriodicOpening,
     /// An energy that leaves vertices free to be anywhere.
     #[error("`{energy}` leaves the inside of the map undetermined: add H, or L")]
     Undetermined {
         /// The energy.
         energy: String,
-    },
-    /// A number of fixed points that means nothing.
-    #[error("{fix} fixed boundary points: a circle map has 3 (or 2, as in the paper)")]
-    FixedPoints {
-        /// The number asked for.
-        fix: usize,
     },
     /// A tolerance that means nothing.
     #[error("the tolerance is {tolerance}; it must be positive and below 1")]
@@ -124,7 +118,7 @@ pub enum MapError {
     /// An inner vertex of a circle map pinned on the circle or outside.
     #[error(
         "vertex {vertex} is not on the boundary and is pinned at distance {radius} from 0: inside a circle map it must be \
-         less than 1 (`riemap info --boundary` lists the boundary)"
+         less than 1"
     )]
     PinOutside {
         /// The vertex of the source.
@@ -133,7 +127,7 @@ pub enum MapError {
         radius: f64,
     },
     /// The order of a boundary that is on no circle.
-    #[error("--keep-order is for circle maps: the energy {energy} has no C")]
+    #[error("the order is kept along a circle: the energy {energy} has no C")]
     NoCircle {
         /// The energy.
         energy: String,
@@ -145,10 +139,7 @@ pub enum MapError {
         vertex: u32,
     },
     /// A held vertex that the cut passes through.
-    #[error(
-        "vertex {vertex} cannot be held: the surface is cut there, and it has {copies} images: hold another vertex, or \
-         open the surface elsewhere (--remove-face)"
-    )]
+    #[error("vertex {vertex} cannot be held: the surface is cut there, and it has {copies} images")]
     OnTheCut {
         /// Its index in the source.
         vertex: u32,
@@ -156,21 +147,18 @@ pub enum MapError {
         copies: usize,
     },
     /// Weights beside what they do not go with.
-    #[error(
-        "--weights {name} makes a map with a fixed boundary, in place of an energy and by a solver of its own: {help}"
-    )]
+    #[error("the weights {name} make a map without an energy and by a solver of its own, and {clash} was asked for")]
     WeightsOfNothing {
         /// The weights.
         name: String,
-        /// What to do.
-        help: &'static str,
+        /// What was asked for beside them.
+        clash: Clash,
     },
     /// No map without folds to start from.
     #[error(
         "no map without folds was found to start from: of the last one {folded} faces are folded (the first: {first:?}) and the shortest edge is \
          {smallest:.0e} of its extent, where doubles tell places apart by 1e-16 of it: a boundary that is held must be so on a convex curve, \
-         and what is far from a short boundary is mapped too small; cut the surface open along a longer line, or map it in \
-         parts, or take the plain map with its folds (--valid off)"
+         and what is far from a short boundary is mapped too small; a longer boundary, or a map in parts, helps"
     )]
     NoValidStart {
         /// Faces that are folded.
@@ -182,8 +170,7 @@ pub enum MapError {
     },
     /// Quads that no map makes convex.
     #[error(
-        "no map makes the quads at vertex {vertex} convex, which is not on the boundary and has two of them alone, nor those at {} more: \
-         merge the two, or take the plain map (--valid off)",
+        "no map makes the quads at vertex {vertex} convex, which is not on the boundary and has two of them alone, nor those at {} more",
         count - 1
     )]
     NoConvexQuads {
@@ -221,13 +208,12 @@ pub enum MapError {
     Reduced(#[from] BoundaryError),
     /// A minimisation that ran out of iterations, or met rounding too early.
     #[error(
-        "{backend} did not converge: {status} after {iterations} iterations, with the gradient at {reduction:.1e} of \
-         that of the start ({tolerance:.1e} was asked for); try another --solver, or --max-iterations to get the \
-         unfinished map"
+        "{solver} did not converge: {status} after {iterations} iterations, with the gradient at {reduction:.1e} of \
+         that of the start ({tolerance:.1e} was asked for)"
     )]
     NotConverged {
         /// Its name.
-        backend: &'static str,
+        solver: &'static str,
         /// How it ended.
         status: &'static str,
         /// Iterations made.
@@ -237,6 +223,24 @@ pub enum MapError {
         /// What was asked for.
         tolerance: f64,
     },
+}
+
+/// A request beside the weights of a convex combination map, which have no use for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clash {
+    /// An energy.
+    Energy,
+    /// A solver by name.
+    Solver,
+}
+
+impl std::fmt::Display for Clash {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(match self {
+            Clash::Energy => "an energy",
+            Clash::Solver => "a solver",
+        })
+    }
 }
 
 impl MapError {

@@ -2,9 +2,9 @@
 
 use num_complex::Complex64;
 
+use super::MapError;
 use super::options::hold_pins;
 use super::setup::Setup;
-use super::{Boundary, MapError};
 use crate::constraint::{Fixed, hold_gauge, spread_points};
 use crate::energy::Expression;
 use crate::quad_graph::QuadGraph;
@@ -16,7 +16,7 @@ use crate::quad_graph::QuadGraph;
 pub(super) fn held(setup: &Setup, z: &[Complex64]) -> Result<Fixed, MapError> {
     let Setup { options, domain, expression, normalisation } = setup;
     let (disc, graph) = (&domain.disc, &domain.graph);
-    if options.boundary == Boundary::Fixed {
+    if options.boundary.is_fixed() {
         return options.fixed(disc, graph);
     }
     let mut fixed = Fixed::default();

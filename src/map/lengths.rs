@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use num_complex::Complex64;
 use serde::Serialize;
 
-use super::{Boundary, MapOptions};
+use super::MapOptions;
 use crate::distortion::MeanMax;
 use crate::io::{BoundaryLengths, LengthUnit, PerEdge};
 use crate::quad_graph::QuadGraph;
@@ -15,17 +15,15 @@ use crate::surface::oriented_mesh::OrientedMesh;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LengthsError {
     /// Nothing that keeps lengths.
-    #[error(
-        "boundary lengths are kept by L', and the energy is `{energy}`: use --boundary free, or add Lb to --energy"
-    )]
+    #[error("boundary lengths are kept by L', and the energy is `{energy}`")]
     NotKept {
         /// The energy.
         energy: String,
     },
     /// Too few or too many numbers.
     #[error(
-        "{found} boundary lengths are given, and the boundary has {edges} edges: give one for each, from the vertex that \
-         `riemap info --boundary` lists first"
+        "{found} boundary lengths are given, and the boundary has {edges} edges: one for each is needed, from the first \
+         vertex of the boundary on"
     )]
     Count {
         /// Numbers given.
@@ -34,7 +32,7 @@ pub enum LengthsError {
         edges: usize,
     },
     /// Vertices that are not next to each other on the boundary.
-    #[error("{v} {w} is no boundary edge (`riemap info --boundary` lists the boundary's vertices)")]
+    #[error("{v} {w} is no boundary edge")]
     NoSuchEdge {
         /// The vertex named first.
         v: u32,
@@ -93,9 +91,9 @@ pub(super) fn prescribe(
     disc: &OrientedMesh,
     graph: &mut QuadGraph,
 ) -> Result<Option<Prescribed>, LengthsError> {
-    let Some(given) = &options.boundary_lengths else { return Ok(None) };
+    let Some(given) = options.boundary_lengths() else { return Ok(None) };
     let expression = options.expression();
-    if !expression.has("Lb") || matches!(options.boundary, Boundary::Fixed | Boundary::Periodic) {
+    if !expression.has("Lb") {
         return Err(LengthsError::NotKept { energy: expression.to_string() });
     }
     let values = in_order(given, disc)?;

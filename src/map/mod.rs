@@ -19,9 +19,12 @@ mod texture;
 mod torus;
 
 pub use domain::Domain;
-pub use error::MapError;
+pub use error::{Clash, MapError};
 pub use lengths::{LengthsError, LengthsRecord, Prescribed};
-pub use options::{Boundary, Hold, MapOptions, Pin, RhoSource, Start, Valid};
+pub use options::{
+    Boundary, BoundaryName, FlatOptions, Hold, Interior, MapOptions, OptionsError, Outline, Pin, PinnedPoints,
+    RhoSource, Start, Valid, ValidName,
+};
 pub use provenance::{Provenance, Replaced, Replacement, Setback};
 pub use result::{Ending, Exactly, Map};
 pub use texture::TextureCoordinates;

@@ -39,9 +39,6 @@ impl Normalisation {
             return Ok(Normalisation::default());
         }
         let Domain { disc, graph, .. } = domain;
-        if !(2..=3).contains(&options.fix) {
-            return Err(MapError::FixedPoints { fix: options.fix });
-        }
         if !options.pins.is_empty() {
             return Normalisation::of_pins(options, disc, graph);
         }
@@ -49,7 +46,7 @@ impl Normalisation {
         if expression.rows().any(|row| row.metric) {
             return Ok(Normalisation { points: vec![(0, 0.0)], exact: false });
         }
-        let positions = spread_points(graph, options.fix);
+        let positions = spread_points(graph, options.pinned_points().count());
         let arc = on_circle(graph, 1.0, &[(0, 0.0)])?;
         let place = |k: usize| match exact.and_then(|w| w.get(disc.source_vertex[graph.boundary[k] as usize] as usize))
         {

@@ -35,7 +35,7 @@ impl Setup<'_> {
         let Setup { options, expression, .. } = self;
         let tolerance = options.tolerance;
         match () {
-            () if options.keep_order && !expression.has("C") => {
+            () if options.is_ordered() && !expression.has("C") => {
                 Err(MapError::NoCircle { energy: expression.to_string() })
             }
             () if !expression.has("H") && !expression.has("L") && !expression.is_flip_free() => {
@@ -50,7 +50,7 @@ impl Setup<'_> {
     pub fn starts_from_free_map(&self) -> bool {
         let Setup { options, expression, .. } = self;
         options.start == Start::Auto
-            && options.boundary != Boundary::Fixed
+            && !options.boundary.is_fixed()
             && options.pins.is_empty()
             && !expression.is_flip_free()
             && !expression.has("C")
@@ -62,7 +62,7 @@ impl Setup<'_> {
     pub fn accepts(&self, z: &[Complex64]) -> bool {
         let validity = self.domain.validity(z);
         match self.options.boundary {
-            Boundary::Free if self.options.valid != Valid::OneToOne => validity.is_locally_one_to_one(),
+            Boundary::Free { overlap: true, .. } => validity.is_locally_one_to_one(),
             _ => validity.is_one_to_one(),
         }
     }
@@ -70,7 +70,7 @@ impl Setup<'_> {
     /// Whether a bijective map of lower distortion is looked for though `map` is injective.
     pub fn looks_for_less_distortion(&self, map: &Map) -> bool {
         self.options.valid == Valid::BestQc
-            || (self.options.boundary == Boundary::Circle && self.mean_distortion(map) > LARGEST_DISTORTION)
+            || (self.options.boundary.is_circle() && self.mean_distortion(map) > LARGEST_DISTORTION)
     }
 
     /// The mean of σ1/σ2 over the faces.
@@ -86,5 +86,5 @@ impl Setup<'_> {
 
 /// Whether `expression` draws a free boundary to the unit circle.
 pub(super) fn is_circle(options: &MapOptions, expression: &Expression) -> bool {
-    expression.has("C") && options.boundary != Boundary::Fixed
+    expression.has("C") && !options.boundary.is_fixed()
 }

@@ -57,7 +57,7 @@ fn conformal(setup: &Setup, watch: &mut dyn Observer) -> Result<Map, MapError> {
         // An injective map that is as near to conformal spares the minimiser.
         Attempt::Solved(map) => {
             if options.promises_valid()
-                && !options.keep_order
+                && !options.is_ordered()
                 && let Some(map) = bijective::unflipped(setup, &boundary::on_circle(setup, *map), watch)?.0
             {
                 return Ok(map);
@@ -139,6 +139,6 @@ fn is_to_be_ordered(setup: &Setup, map: &Map) -> bool {
     let is_small_quad_mesh = graph.primal == graph.vertices && graph.vertices <= MOST_FOR_MINIMISER;
     map.on_circle
         && !boundary::is_asked(options)
-        && (options.keep_order || is_small_quad_mesh)
+        && (options.is_ordered() || is_small_quad_mesh)
         && out_of_order(&mesh_boundary(graph, &map.z)) > 0
 }

@@ -10,9 +10,6 @@ impl MapOptions {
         if expression.terms.iter().any(|term| term.name != "H") {
             return Err(MapError::PeriodicEnergy { energy: expression.to_string() });
         }
-        if self.keep_order {
-            return Err(MapError::NoCircle { energy: expression.to_string() });
-        }
         if !self.pins.is_empty() {
             return Err(MapError::PeriodicPins);
         }

@@ -73,7 +73,7 @@ pub enum QuadGraphError {
     /// A quad that its normal sees from the side or from below.
     #[error(
         "face {face} is seen edge-on or from below along its given normal {normal:?}, and ρ is not defined: correct \
-         the normals, or take ρ from the positions (--rho positions)"
+         the normals, or compute ρ from the positions"
     )]
     NormalOffFace {
         /// The face.
@@ -94,8 +94,8 @@ pub enum QuadGraphError {
     },
     /// The foot of the perpendicular is not on its boundary edge.
     #[error(
-        "the perpendicular from the dual point of face {face} misses its boundary edge {edge:?}: use the midpoint \
-         (--boundary-dual midpoint)"
+        "the perpendicular from the dual point of face {face} misses its boundary edge {edge:?}: the midpoint of the \
+         edge is always on it"
     )]
     FootOutsideEdge {
         /// The face.

@@ -37,8 +37,7 @@ pub struct NotADisc {
 }
 
 fn lines(findings: &[Finding]) -> String {
-    let lines: Vec<String> = findings.iter().map(|f| format!("{f}: {}", f.advice())).collect();
-    lines.join("\n")
+    findings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 impl OrientedMesh {

@@ -2,8 +2,9 @@
 
 use riemap::app::compare::libigl::{Environment, LibiglError, lscm};
 use riemap::app::compare::peer::{PeerError, peer};
+use riemap::constraint::Shape;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, Mapped, Valid, run};
+use riemap::map::{Boundary, Interior, MapOptions, Mapped, Outline, Valid, run};
 use riemap::solver::Silent;
 use riemap::surface::cut::Opening;
 
@@ -33,7 +34,7 @@ fn least_squares_conformal_maps_of_plane_meshes_are_similarities() {
 fn the_harmonic_map_is_ours_with_circumcentres() {
     let source = "catenoid?n=12&mesh=delaunay&seed=5";
     let theirs = map("libigl-harmonic", source);
-    let options = MapOptions { boundary: Boundary::Fixed, dual: "circumcentre".to_owned(), ..MapOptions::default() };
+    let options = MapOptions { boundary: Boundary::FIXED, dual: "circumcentre".to_owned(), ..MapOptions::default() };
     let ours = run(&Input::open(source).unwrap(), &options, &mut Silent).unwrap();
     let primal = ours.domain.graph.primal;
     let farthest = (0..primal).map(|v| (ours.map.z[v] - theirs.map.z[v]).norm()).fold(0.0, f64::max);
@@ -49,13 +50,7 @@ fn the_harmonic_map_is_ours_with_circumcentres() {
 fn a_peer_maps_the_same_disc_that_is_cut_out_of_a_closed_surface() {
     let source = "torus?R=2&r=0.8&n=12&mesh=triangle";
     let theirs = map_opened("libigl-harmonic", source, Opening { cut: true, ..Opening::default() });
-    let options = MapOptions {
-        boundary: Boundary::Fixed,
-        weights: Some("cotan".to_owned()),
-        cut: true,
-        valid: Valid::Off,
-        ..MapOptions::default()
-    };
+    let options = MapOptions { boundary: cotan(), cut: true, valid: Valid::Off, ..MapOptions::default() };
     let ours = run(&Input::open(source).unwrap(), &options, &mut Silent).unwrap();
     let primal = ours.domain.graph.primal;
     let farthest = (0..primal).map(|v| (ours.map.z[v] - theirs.map.z[v]).norm()).fold(0.0, f64::max);
@@ -89,4 +84,10 @@ fn slim_finds_the_isometry_of_a_plane_mesh_and_never_folds() {
     assert_eq!(rough.distortion.flipped, 0);
     // Nothing is held on the circle.
     assert_eq!(rough.distortion.boundary_out_of_order, None);
+}
+
+/// The boundary fixed on the circle, inner vertices at means by cotangent weights: libigl's harmonic map.
+fn cotan() -> Boundary {
+    let on = Outline::Shape(Shape::Circle);
+    Boundary::Fixed { on, hold: None, interior: Interior::Weights("cotan".to_owned()) }
 }

@@ -3,11 +3,13 @@
 use num_complex::Complex64;
 use riemap::input::Input;
 use riemap::io::{BoundaryLengths, LengthUnit, PerEdge, read_boundary_lengths};
-use riemap::map::{Boundary, LengthsError, LengthsRecord, MapError, MapOptions, Mapped, run};
+use riemap::map::{
+    Boundary, BoundaryName, FlatOptions, LengthsError, LengthsRecord, MapError, MapOptions, Mapped, OptionsError, run,
+};
 use riemap::solver::Silent;
 
 fn free(lengths: Option<BoundaryLengths>) -> MapOptions {
-    MapOptions { boundary: Boundary::Free, boundary_lengths: lengths, ..MapOptions::default() }
+    MapOptions { boundary: Boundary::Free { lengths, overlap: true }, ..MapOptions::default() }
 }
 
 fn map(input: &Input, options: &MapOptions) -> Mapped {
@@ -155,11 +157,15 @@ fn edges_may_be_named_in_any_order() {
 #[test]
 fn maps_that_keep_no_lengths_refuse_them() {
     let input = Input::open("graph:cos+cos?n=9").unwrap();
-    for boundary in [Boundary::Circle, Boundary::Fixed] {
-        let options = MapOptions { boundary, ..free(factors(vec![1.0; 32])) };
-        let error = run(&input, &options, &mut Silent).map(|mapped| mapped.map.provenance.to_string());
-        assert!(matches!(error, Err(MapError::Lengths(LengthsError::NotKept { .. }))), "{error:?}");
+    let lengths = || factors(vec![1.0; 32]);
+    for boundary in [BoundaryName::Circle, BoundaryName::Fixed, BoundaryName::Periodic] {
+        let flat = FlatOptions { boundary: Some(boundary), boundary_lengths: lengths(), ..FlatOptions::default() };
+        let refusal = MapOptions::try_from(flat).unwrap_err();
+        assert!(matches!(refusal, OptionsError::OtherBoundary { key: "boundary-lengths", .. }), "{refusal}");
     }
+    let options = MapOptions { energy: Some("H + L".parse().unwrap()), ..free(lengths()) };
+    let error = run(&input, &options, &mut Silent).map(|mapped| mapped.map.provenance.to_string());
+    assert!(matches!(error, Err(MapError::Lengths(LengthsError::NotKept { .. }))), "{error:?}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn energy_of(mapped: &Mapped, name: &str) -> f64 {
 fn flat_meshes_are_found_again_from_the_circle() {
     for mesh in ["quad", "triangle", "delaunay"] {
         for energy in ["SD", "MIPS", "MIPS + Lb", "SD + L"] {
-            let mapped = mapped(&format!("plane?n=10&mesh={mesh}"), energy, Boundary::Free);
+            let mapped = mapped(&format!("plane?n=10&mesh={mesh}"), energy, Boundary::FREE);
             // A minimum of 0, reached to |∇E| = 1e-10 of the start's.
             assert!(mapped.map.total.unwrap() < 1e-16, "{mesh} {energy}: {:e}", mapped.map.total.unwrap());
             assert!(mapped.validity.is_one_to_one());
@@ -36,14 +36,14 @@ fn every_combination_gives_a_map_without_folds() {
         ["graph:saddle?n=10&amplitude=2&mesh=delaunay", "graph:cos+cos?n=10&mesh=quad", "sphere?n=10&mesh=triangle"]
     {
         for (energy, boundary) in [
-            ("H + 0.01 MIPS", Boundary::Fixed),
-            ("H + 0.01 MIPS", Boundary::Free),
-            ("H + C + 0.01 MIPS", Boundary::Circle),
-            ("MIPS", Boundary::Fixed),
-            ("H + Lb + 0.1 SD", Boundary::Free),
-            ("SD", Boundary::Free),
+            ("H + 0.01 MIPS", Boundary::FIXED),
+            ("H + 0.01 MIPS", Boundary::FREE),
+            ("H + C + 0.01 MIPS", Boundary::CIRCLE),
+            ("MIPS", Boundary::FIXED),
+            ("H + Lb + 0.1 SD", Boundary::FREE),
+            ("SD", Boundary::FREE),
         ] {
-            let mapped = mapped(surface, energy, boundary);
+            let mapped = mapped(surface, energy, boundary.clone());
             assert!(mapped.validity.is_locally_one_to_one(), "{surface} {energy} {boundary:?}");
             let total: f64 = mapped.map.total.unwrap();
             assert!(total.is_finite() && total > 0.0);
@@ -55,7 +55,7 @@ fn every_combination_gives_a_map_without_folds() {
 #[test]
 fn each_energy_is_lowest_under_itself() {
     let surface = "graph:cos+cos?n=13&mesh=delaunay";
-    let [h, both, mips] = ["H", "H + MIPS", "MIPS"].map(|energy| mapped(surface, energy, Boundary::Fixed));
+    let [h, both, mips] = ["H", "H + MIPS", "MIPS"].map(|energy| mapped(surface, energy, Boundary::FIXED));
     assert!(energy_of(&h, "H") < energy_of(&both, "H"));
     assert!(energy_of(&mips, "MIPS") < energy_of(&both, "MIPS"));
 }
@@ -68,7 +68,7 @@ fn the_compromise_of_h_and_mips_does_not_depend_on_the_unit_of_length() {
         input.surface.positions.iter_mut().for_each(|p| *p = p.map(|x| scale * x));
         let options = MapOptions {
             energy: Some("H + 0.1 MIPS".parse().unwrap()),
-            boundary: Boundary::Fixed,
+            boundary: Boundary::FIXED,
             ..MapOptions::default()
         };
         map::run(&input, &options, &mut Silent).unwrap().map.z
@@ -83,7 +83,7 @@ fn a_start_that_cannot_be_is_an_error() {
     // An inner vertex held where the faces around it must fold.
     let options = MapOptions {
         energy: Some("MIPS".parse().unwrap()),
-        boundary: Boundary::Fixed,
+        boundary: Boundary::FIXED,
         pins: vec![map::Pin { vertex: 12, place: [5.0, 5.0] }],
         ..MapOptions::default()
     };

@@ -46,7 +46,7 @@ fn a_map_with_few_folds_is_the_plain_one_away_from_them() {
 #[test]
 fn folds_of_free_maps_are_taken_out_where_they_are() {
     let name = "rough?n=33&height=0.3&seed=1";
-    let free = |valid| mapped(name, &MapOptions { boundary: Boundary::Free, valid, ..MapOptions::default() });
+    let free = |valid| mapped(name, &MapOptions { boundary: Boundary::FREE, valid, ..MapOptions::default() });
     let (plain, found) = (free(Valid::Off), free(Valid::Auto));
     println!("{} folded, then {}", plain.validity.folded.len(), found.map.provenance);
     assert!(found.validity.is_locally_one_to_one());

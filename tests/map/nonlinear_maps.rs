@@ -5,16 +5,23 @@ use num_complex::Complex64;
 use riemap::constraint::float_white_back;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
-use riemap::map::{Boundary, Ending, MapError, MapOptions, Mapped, Pin, Valid, run};
+use riemap::map::{
+    Boundary, Ending, FlatOptions, MapError, MapOptions, Mapped, OptionsError, Pin, PinnedPoints, Valid, run,
+};
 use riemap::solver::{LINEAR_BACKENDS, MINIMISERS, Silent, Status, linear_backend};
 use riemap::surface::Surface;
+
+/// The unit circle, boundary points kept in order.
+fn in_order() -> Boundary {
+    Boundary::Circle { pinned: PinnedPoints::Three, ordered: true }
+}
 
 fn options(energy: &str, weight: Weight) -> MapOptions {
     let energy = (!energy.is_empty()).then(|| energy.parse().unwrap());
     let boundary = if energy.as_ref().is_none_or(|e: &riemap::energy::Expression| e.has("C")) {
-        Boundary::Circle
+        Boundary::CIRCLE
     } else {
-        Boundary::Free
+        Boundary::FREE
     };
     // The plain maps, folds and all.
     MapOptions { boundary, energy, weight, valid: Valid::Off, ..MapOptions::default() }
@@ -77,7 +84,7 @@ fn energies_with_unit_weights_are_those_of_an_independent_minimiser() {
 fn boundary_lengths_are_kept_exactly() {
     for weight in [Weight::Unit, Weight::Integral] {
         let options = MapOptions { tolerance: 1e-16, ..options("", weight) };
-        let mapped = map(GRID_33, &MapOptions { boundary: Boundary::Free, ..options });
+        let mapped = map(GRID_33, &MapOptions { boundary: Boundary::FREE, ..options });
         show("H + L'", &mapped);
         assert!(total(&mapped) < 1e-25, "{weight:?}: {}", total(&mapped));
         assert!(mapped.map.iterations <= 100, "{weight:?}: {}", mapped.map.iterations);
@@ -166,8 +173,11 @@ fn two_fixed_points_are_seen_in_the_singular_value() {
     let name = "graph:cos+cos?n=9";
     for weight in [Weight::Unit, Weight::Integral] {
         let solver = "levenberg-marquardt".to_owned();
-        let of = |fix| map(name, &MapOptions { fix, solver: solver.clone(), ..options("", weight) });
-        let (two, three) = (of(2), of(3));
+        let of = |pinned| {
+            let boundary = Boundary::Circle { pinned, ordered: false };
+            map(name, &MapOptions { boundary, solver: solver.clone(), ..options("", weight) })
+        };
+        let (two, three) = (of(PinnedPoints::Two), of(PinnedPoints::Three));
         assert!(two.map.smallest_singular_value.unwrap() < 1e-7);
         assert!(three.map.smallest_singular_value.unwrap() > 1e-2);
         assert_eq!((two.map.fixed.len(), three.map.fixed.len()), (2, 3));
@@ -175,7 +185,8 @@ fn two_fixed_points_are_seen_in_the_singular_value() {
         assert!(three.map.fixed.iter().all(|(_, place)| (place.norm() - 1.0).abs() < 1e-15));
     }
     for fix in [0, 1, 4] {
-        assert_eq!(refusal(name, &MapOptions { fix, ..options("", Weight::Unit) }), MapError::FixedPoints { fix });
+        let flat = FlatOptions { fix: Some(fix), ..FlatOptions::default() };
+        assert_eq!(MapOptions::try_from(flat).unwrap_err(), OptionsError::FixedPoints { fix });
     }
 }
 
@@ -256,7 +267,7 @@ fn staircase(n: u32) -> Surface {
 fn keep_order_leaves_no_boundary_point_out_of_order_on_a_staircase() {
     let input = input(staircase(16));
     let plain = run(&input, &options("", Weight::Integral), &mut Silent).unwrap();
-    let kept = MapOptions { keep_order: true, ..options("", Weight::Integral) };
+    let kept = MapOptions { boundary: in_order(), ..options("", Weight::Integral) };
     let ordered = run(&input, &kept, &mut Silent).unwrap();
     show("plain", &plain);
     show("kept", &ordered);
@@ -265,7 +276,7 @@ fn keep_order_leaves_no_boundary_point_out_of_order_on_a_staircase() {
     assert_eq!(ordered.distortion.boundary_out_of_order, Some(0));
     assert!(total(&ordered) >= total(&plain));
     assert_eq!(ordered.map.energies.len(), 2, "the barrier is no part of the energy that is reported");
-    let error = run(&input, &MapOptions { keep_order: true, ..options("H + L", Weight::Integral) }, &mut Silent);
+    let error = run(&input, &MapOptions { boundary: in_order(), ..options("H + L", Weight::Integral) }, &mut Silent);
     assert!(matches!(error, Err(MapError::NoCircle { .. })));
 }
 
@@ -273,7 +284,7 @@ fn keep_order_leaves_no_boundary_point_out_of_order_on_a_staircase() {
 fn keep_order_changes_little_where_the_order_is_kept_anyway() {
     let name = "graph:cos+cos?n=9";
     let plain = map(name, &options("", Weight::Integral));
-    let kept = map(name, &MapOptions { keep_order: true, ..options("", Weight::Integral) });
+    let kept = map(name, &MapOptions { boundary: in_order(), ..options("", Weight::Integral) });
     // The last coefficient of the barrier is 1e-8, its gradient at most the number of points over their gaps.
     assert!(largest_difference(&plain.map.z, &kept.map.z) < 1e-4);
 }
@@ -302,9 +313,9 @@ fn what_does_not_converge_is_an_error_unless_the_end_was_set() {
 
 #[test]
 fn an_interrupted_map_is_the_initial_one_and_says_so() {
-    for (energy, keep_order) in [("H + C", false), ("H + C", true), ("H + Lb", false)] {
+    for (energy, boundary) in [("H + C", Boundary::CIRCLE), ("H + C", in_order()), ("H + Lb", Boundary::FREE)] {
         let input = Input::open("graph:cos+cos?n=9").unwrap();
-        let options = MapOptions { keep_order, ..options(energy, Weight::Integral) };
+        let options = MapOptions { boundary, ..options(energy, Weight::Integral) };
         let mapped = run(&input, &options, &mut Stopper(0)).unwrap();
         assert_eq!((mapped.map.ending, mapped.map.iterations), (Ending::Minimised(Status::Interrupted), 0));
         assert!(mapped.map.z.iter().all(|z| z.is_finite()) && mapped.distortion.flipped == 0);
@@ -314,7 +325,7 @@ fn an_interrupted_map_is_the_initial_one_and_says_so() {
 #[test]
 fn options_that_make_no_problem_are_refused() {
     let name = "graph:cos+cos?n=9";
-    let alone = MapOptions { boundary: Boundary::Circle, ..options("H", Weight::Integral) };
+    let alone = MapOptions { boundary: Boundary::CIRCLE, ..options("H", Weight::Integral) };
     assert_eq!(refusal(name, &alone), MapError::FreeBoundary);
     assert_eq!(refusal(name, &options("2 H", Weight::Integral)), MapError::FreeBoundary);
     for tolerance in [0.0, -1.0, 1.0, f64::NAN, f64::INFINITY] {
@@ -327,7 +338,7 @@ fn options_that_make_no_problem_are_refused() {
     }
     for backend in MINIMISERS {
         assert!(linear_backend(backend.name()).is_none());
-        let fixed = MapOptions { boundary: Boundary::Fixed, ..options("", Weight::Integral) };
+        let fixed = MapOptions { boundary: Boundary::FIXED, ..options("", Weight::Integral) };
         let error = refusal(name, &MapOptions { solver: backend.name().to_owned(), ..fixed });
         assert!(matches!(error, MapError::Solve(_)), "{}: {error}", backend.name());
     }
@@ -351,7 +362,7 @@ fn sums_without_a_scale_or_a_place_are_refused_or_mapped_without_nan() {
 #[test]
 fn a_fixed_boundary_takes_metric_energies_for_the_interior() {
     let name = "graph:cos+cos?n=9";
-    let fixed = |energy| MapOptions { boundary: Boundary::Fixed, ..options(energy, Weight::Integral) };
+    let fixed = |energy| MapOptions { boundary: Boundary::FIXED, ..options(energy, Weight::Integral) };
     let (both, h) = (map(name, &fixed("H + L")), map(name, &fixed("H")));
     assert_eq!(h.map.ending, Ending::Solved);
     for &v in &both.domain.graph.boundary {

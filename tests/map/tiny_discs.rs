@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::common::surface;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapError, MapOptions, Valid, run};
+use riemap::map::{Boundary, MapError, MapOptions, PinnedPoints, Valid, run};
 use riemap::solver::Silent;
 use riemap::surface::Surface;
 
@@ -58,40 +58,43 @@ fn tiny() -> Vec<(&'static str, Surface)> {
 fn the_smallest_discs_are_mapped_under_every_choice() {
     let (mut mapped, mut refused) = (0, 0);
     for (name, s) in tiny() {
-        for boundary in [Boundary::Circle, Boundary::Free, Boundary::Fixed] {
+        let two = Boundary::Circle { pinned: PinnedPoints::Two, ordered: false };
+        for boundary in [two, Boundary::CIRCLE, Boundary::FREE, Boundary::FIXED] {
             for dual in ["barycentre", "circumcentre", "incentre"] {
                 for valid in [Valid::Auto, Valid::BestQc, Valid::Off] {
-                    for fix in [2, 3] {
-                        let what = format!("{name}: {boundary:?}, {dual}, {valid:?}, {fix}");
-                        let options =
-                            MapOptions { boundary, dual: dual.to_owned(), valid, fix, ..MapOptions::default() };
-                        let made = match run(&Input::of(name.to_owned(), s.clone()), &options, &mut Silent) {
-                            Ok(made) => made,
-                            Err(error) => {
-                                println!("{what}: {error}");
-                                let undefined = dual == "circumcentre" && error.is_of_integral_weights();
-                                // Nothing takes the place of a plain map that is not found.
-                                let plain = valid == Valid::Off && boundary != Boundary::Fixed;
-                                assert!(undefined || plain, "{what}: {error}");
-                                refused += 1;
-                                continue;
-                            }
-                        };
-                        mapped += 1;
-                        assert!(made.map.z.iter().all(|z| z.is_finite()), "{what}");
-                        let is_valid = match boundary {
-                            Boundary::Circle => made.validity.is_one_to_one(),
-                            Boundary::Free => made.validity.is_locally_one_to_one(),
-                            _ => true,
-                        };
-                        println!("{what}: {} {} {is_valid}", made.map.provenance, made.map.ending.name());
-                        assert!(is_valid || valid == Valid::Off, "{what}: {:?}", made.validity);
-                    }
+                    let what = format!("{name}: {boundary:?}, {dual}, {valid:?}");
+                    let options = MapOptions {
+                        boundary: boundary.clone(),
+                        dual: dual.to_owned(),
+                        valid,
+                        ..MapOptions::default()
+                    };
+                    let made = match run(&Input::of(name.to_owned(), s.clone()), &options, &mut Silent) {
+                        Ok(made) => made,
+                        Err(error) => {
+                            println!("{what}: {error}");
+                            let undefined = dual == "circumcentre" && error.is_of_integral_weights();
+                            // Nothing takes the place of a plain map that is not found.
+                            let plain = valid == Valid::Off && !boundary.is_fixed();
+                            assert!(undefined || plain, "{what}: {error}");
+                            refused += 1;
+                            continue;
+                        }
+                    };
+                    mapped += 1;
+                    assert!(made.map.z.iter().all(|z| z.is_finite()), "{what}");
+                    let is_valid = match boundary {
+                        Boundary::Circle { .. } => made.validity.is_one_to_one(),
+                        Boundary::Free { .. } => made.validity.is_locally_one_to_one(),
+                        _ => true,
+                    };
+                    println!("{what}: {} {} {is_valid}", made.map.provenance, made.map.ending.name());
+                    assert!(is_valid || valid == Valid::Off, "{what}: {:?}", made.validity);
                 }
             }
         }
     }
-    assert!(mapped > 500 && refused < 100, "{mapped} mapped, {refused} refused");
+    assert!(mapped > 330 && refused < 100, "{mapped} mapped, {refused} refused");
 }
 
 /// Two quads that share two edges: under every map one of them has an angle of π at least where these meet.
@@ -108,9 +111,9 @@ fn quads_that_cannot_be_convex_are_refused_by_name() {
     ];
     // Vertex 5 lies between (1, 2, 3, 5) and (1, 5, 3, 0).
     let s = surface(positions, [[1, 2, 3, 5], [1, 5, 3, 0], [0, 3, 4, 6]]);
-    for boundary in [Boundary::Circle, Boundary::Free] {
+    for boundary in [Boundary::CIRCLE, Boundary::FREE] {
         let of = |valid| {
-            let options = MapOptions { boundary, valid, ..MapOptions::default() };
+            let options = MapOptions { boundary: boundary.clone(), valid, ..MapOptions::default() };
             run(&Input::of("doublet".to_owned(), s.clone()), &options, &mut Silent)
         };
         let error = of(Valid::Auto).unwrap_err();

@@ -2,14 +2,22 @@
 
 use crate::common::{disc, largest_difference, surface};
 use num_complex::Complex64;
+use riemap::constraint::Shape;
 use riemap::input::Input;
-use riemap::map::{self, Boundary, MapError, MapOptions, Mapped, Pin, Provenance, Valid};
+use riemap::map::{
+    self, Boundary, FlatOptions, Interior, MapError, MapOptions, Mapped, OptionsError, Outline, Pin, Provenance, Valid,
+};
 use riemap::solver::Silent;
 use riemap::solver::convex::EDGE_WEIGHTS;
 use riemap::surface::Surface;
 
 fn options(weights: &str) -> MapOptions {
-    MapOptions { boundary: Boundary::Fixed, weights: Some(weights.to_owned()), ..MapOptions::default() }
+    on(Outline::Shape(Shape::Circle), weights)
+}
+
+fn on(on: Outline, weights: &str) -> MapOptions {
+    let boundary = Boundary::Fixed { on, hold: None, interior: Interior::Weights(weights.to_owned()) };
+    MapOptions { boundary, ..MapOptions::default() }
 }
 
 fn mapped(name: &str, options: &MapOptions) -> Mapped {
@@ -23,7 +31,7 @@ fn of_flat(flat: &Surface, weights: &str) -> (Vec<Complex64>, Mapped) {
         let [x, y, _] = flat.positions[vertex as usize];
         Pin { vertex, place: [x, y] }
     });
-    let options = MapOptions { positions: Some(places.collect()), ..options(weights) };
+    let options = on(Outline::Places(places.collect()), weights);
     let input = Input::of("flat".to_owned(), flat.clone());
     let z = flat.positions.iter().map(|&[x, y, _]| Complex64::new(x, y)).collect();
     (z, map::run(&input, &options, &mut Silent).unwrap())
@@ -56,7 +64,7 @@ fn uniform_weights_do_not_leave_them() {
 fn cotan_weights_are_the_map_of_circumcentres() {
     for name in ["sphere?n=16&mesh=delaunay&points=random&seed=3", "graph:saddle?n=12&amplitude=4&mesh=triangle"] {
         let circumcentres =
-            MapOptions { boundary: Boundary::Fixed, dual: "circumcentre".to_owned(), ..MapOptions::default() };
+            MapOptions { boundary: Boundary::FIXED, dual: "circumcentre".to_owned(), ..MapOptions::default() };
         let known = mapped(name, &circumcentres);
         let found = mapped(name, &options("cotan"));
         let primal = found.domain.graph.primal;
@@ -119,8 +127,9 @@ fn what_rounding_spoils_is_drawn_outward() {
 fn weights_beside_an_energy_or_another_boundary_are_refused() {
     let input = Input::open("plane?n=4").unwrap();
     let refused = |options: MapOptions| map::run(&input, &options, &mut Silent).unwrap_err();
-    let circle = MapOptions { boundary: Boundary::Circle, ..options("uniform") };
-    assert!(matches!(refused(circle), MapError::WeightsOfNothing { .. }));
+    let circle = FlatOptions { weights: Some("uniform".to_owned()), ..FlatOptions::default() };
+    let refusal = MapOptions::try_from(circle).unwrap_err();
+    assert!(matches!(refusal, OptionsError::OtherBoundary { key: "weights", .. }), "{refusal}");
     let energy = MapOptions { energy: Some("H".parse().unwrap()), ..options("uniform") };
     assert!(matches!(refused(energy), MapError::WeightsOfNothing { .. }));
     assert!(refused(options("frob")).to_string().contains("mean-value"));

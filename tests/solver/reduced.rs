@@ -17,7 +17,7 @@ fn circle(solver: &str) -> MapOptions {
 }
 
 fn free(solver: &str) -> MapOptions {
-    MapOptions { boundary: Boundary::Free, ..circle(solver) }
+    MapOptions { boundary: Boundary::FREE, ..circle(solver) }
 }
 
 #[track_caller]
@@ -246,7 +246,7 @@ fn what_does_not_reduce_is_refused_by_name_and_left_to_others_by_auto() {
     // Negative ρ are no obstacle to a circle map, but to the weights of H.
     let round = map(obtuse, &with_circumcentres("auto"));
     assert_eq!(round.map.exactly, Some(Exactly::Conformal));
-    let free_boundary = MapOptions { boundary: Boundary::Free, ..with_circumcentres("reduced") };
+    let free_boundary = MapOptions { boundary: Boundary::FREE, ..with_circumcentres("reduced") };
     let error = refusal(obtuse, &free_boundary);
     assert!(matches!(error, MapError::Reduced(BoundaryError::NonPositiveRho(_))), "{error}");
 }

@@ -12,7 +12,7 @@ const GRID_33: &str = "graph:cos+cos?n=33";
 
 /// With integral weights.
 fn options(energy: &str, start: Start) -> MapOptions {
-    MapOptions { boundary: Boundary::Free, energy: Some(energy.parse().unwrap()), start, ..MapOptions::default() }
+    MapOptions { boundary: Boundary::FREE, energy: Some(energy.parse().unwrap()), start, ..MapOptions::default() }
 }
 
 #[track_caller]

@@ -3,6 +3,7 @@ use std::io::Write;
 use anyhow::Result;
 use clap::Args;
 
+use crate::app::cli::advice::of_finding;
 use crate::surface::digital::Digital;
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::Component;
@@ -62,7 +63,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
             Severity::Repaired => "repaired",
             Severity::Note => "note",
         };
-        writeln!(out, "{label}: {finding}\n  → {}", finding.advice())?;
+        writeln!(out, "{label}: {finding}\n  → {}", of_finding(finding))?;
     }
     if arguments.boundary
         && let Ok(disc) = OrientedMesh::new(&input.surface, &diagnosis)

@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod advice;
 mod bench;
 mod display;
 mod index;
@@ -18,6 +19,7 @@ use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
+pub use advice::advice;
 pub use interrupt::EXIT_CODE;
 pub use run::Interrupted;
 

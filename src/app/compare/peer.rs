@@ -127,7 +127,7 @@ impl Peer {
         }
         // Opens the surface and lays its boundary on the circle.
         let Opening { cut, remove_faces, fill_holes } = opening;
-        let options = MapOptions { boundary: Boundary::Fixed, cut, remove_faces, fill_holes, ..MapOptions::default() };
+        let options = MapOptions { boundary: Boundary::FIXED, cut, remove_faces, fill_holes, ..MapOptions::default() };
         let mapped = run(input, &options, watch)?;
         let Domain { disc, graph, .. } = &mapped.domain;
         let held: Vec<u32> = match self.given {

@@ -80,7 +80,7 @@ pub fn cotan_map(surface: &Surface, watch: &mut dyn Observer) -> Result<CotanMap
     if disc.faces.arity() != Some(3) {
         return Err(VerifyError::NotTriangles { corners: disc.faces.arity().unwrap_or(0) });
     }
-    let options = MapOptions { boundary: Boundary::Fixed, dual: "circumcentre".to_owned(), ..MapOptions::default() };
+    let options = MapOptions { boundary: Boundary::FIXED, dual: "circumcentre".to_owned(), ..MapOptions::default() };
     let Domain { disc, graph, .. } = Domain::of_positions(disc, &options)?;
     let map = options.solve(&graph, options.fixed(&disc, &graph)?, watch)?;
     Ok(CotanMap { disc, map })

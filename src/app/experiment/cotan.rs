@@ -53,7 +53,7 @@ impl Task for CotanTask {
         let input = self.surface.open()?;
         let libigl = Environment::with(&Settings::from_variables())?;
         let with_dual =
-            |dual: &str| MapOptions { boundary: Boundary::Fixed, dual: dual.to_owned(), ..MapOptions::default() };
+            |dual: &str| MapOptions { boundary: Boundary::FIXED, dual: dual.to_owned(), ..MapOptions::default() };
         let mut watch = Stopwatch::start();
         let ours = map::run(&input, &with_dual("circumcentre"), &mut watch)?;
         let seconds = watch.seconds();

@@ -38,19 +38,17 @@ pub enum VolumeError {
         source: ParseError,
     },
     /// An option that a format has no use for.
-    #[error("{}: a .{} file states its own {what}; leave {option} out", path.display(), format.extension())]
+    #[error("{}: a .{} file states its own {key}", path.display(), format.extension())]
     Superfluous {
         /// The file asked for.
         path: PathBuf,
         /// Its format.
         format: VolumeFormat,
-        /// `--size` or `--type`.
-        option: &'static str,
-        /// What the option would have said.
-        what: &'static str,
+        /// The option: `size` or `type`.
+        key: &'static str,
     },
     /// A raw file without its size.
-    #[error("{}: raw values have no header; say how many there are along x, y, z with --size XxYxZ", path.display())]
+    #[error("{}: raw values have no header, and the number of values along x, y, z is not given", path.display())]
     SizeNeeded {
         /// The file asked for.
         path: PathBuf,
@@ -63,8 +61,8 @@ pub enum VolumeError {
     },
     /// No value is above the threshold.
     #[error(
-        "{}: none of the {values} values is above the threshold {threshold}; the largest is {most}{}",
-        path.display(), if most > &f64::NEG_INFINITY { "; choose a smaller --threshold" } else { "" }
+        "{}: none of the {values} values is above the threshold {threshold}; the largest is {most}",
+        path.display()
     )]
     Empty {
         /// The file asked for.

@@ -133,8 +133,8 @@ fn check(path: &Path, format: VolumeFormat, options: &VolumeOptions) -> Result<(
     match (format, options.size, options.sample) {
         (VolumeFormat::Raw, None, _) => Err(VolumeError::SizeNeeded { path: path() }),
         (VolumeFormat::Raw, ..) | (_, None, None) => Ok(()),
-        (_, Some(_), _) => Err(VolumeError::Superfluous { path: path(), format, option: "--size", what: "size" }),
-        (_, None, Some(_)) => Err(VolumeError::Superfluous { path: path(), format, option: "--type", what: "type" }),
+        (_, Some(_), _) => Err(VolumeError::Superfluous { path: path(), format, key: "size" }),
+        (_, None, Some(_)) => Err(VolumeError::Superfluous { path: path(), format, key: "type" }),
     }
 }
 

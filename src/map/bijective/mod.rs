@@ -73,7 +73,7 @@ pub(super) fn replacement(setup: &Setup, spent: usize, watch: &mut dyn Observer)
     let left = options.max_iterations.map(|n| n.saturating_sub(spent));
     let repair = Repair { setup, metric: &metric, left };
     let map = match options.boundary {
-        Boundary::Free => repair.free(watch),
+        Boundary::Free { .. } => repair.free(watch),
         _ => repair.circle(watch),
     }?;
     Ok(Map { iterations: map.iterations + spent, ..map })

@@ -67,12 +67,12 @@ pub(super) fn around_flipped(
     watch: &mut dyn Observer,
 ) -> Result<(Option<Map>, usize), MapError> {
     let Setup { options, domain, .. } = *setup;
-    if !matches!(options.valid, Valid::Auto | Valid::OneToOne) {
+    if options.valid != Valid::Auto {
         return Ok((None, 0));
     }
     let count = domain.disc.faces.len() as f64;
     // Boundary points that are only drawn to the circle have no place to slide on.
-    if options.boundary == Boundary::Circle && !matches!(plain.exactly, Some(Exactly::Circle | Exactly::Conformal)) {
+    if options.boundary.is_circle() && !matches!(plain.exactly, Some(Exactly::Circle | Exactly::Conformal)) {
         return Ok((None, 0));
     }
     let (sheared, mean) = shear(domain, &plain.z);
@@ -119,7 +119,7 @@ pub(super) fn around_flipped(
     let graph = &domain.graph;
     let h = conformal::value(graph, &conformal::weights(graph, options.weight)?, &z);
     let (name, other, exactly) = match options.boundary {
-        Boundary::Circle => ("C", circle_energy(graph, &plain.fixed, &z), Some(Exactly::Circle)),
+        Boundary::Circle { .. } => ("C", circle_energy(graph, &plain.fixed, &z), Some(Exactly::Circle)),
         // Boundary edges that have moved may have other lengths.
         _ => ("Lb", length_energy(graph, &z), None),
     };
@@ -181,7 +181,7 @@ fn seeds(options: &MapOptions, domain: &Domain, at: &FacesAt, z: &[Complex64], s
     let disc = &domain.disc;
     let mut seeds = sheared;
     seeds.extend(domain.folded(z));
-    if options.boundary == Boundary::Circle {
+    if options.boundary.is_circle() {
         let n = disc.boundary.len();
         for k in 0..n {
             let [a, b] = [k, (k + 1) % n].map(|k| disc.boundary[k]);
@@ -235,7 +235,7 @@ impl Work<'_> {
     }
 
     fn is_circle(&self) -> bool {
-        self.options.boundary == Boundary::Circle
+        self.options.boundary.is_circle()
     }
 
     fn objective(&self, patch: &Patch, terms: Terms, z: &[Complex64], whole: bool) -> Objective {

@@ -4,7 +4,7 @@ use super::{Attempt, Unsuitable};
 use crate::energy::conformal;
 use crate::map::provenance::{Provenance, Replaced, Replacement};
 use crate::map::setup::Setup;
-use crate::map::{Boundary, Map, MapError, Valid};
+use crate::map::{Clash, Map, MapError, Valid};
 use crate::solver::Observer;
 use crate::solver::convex::{convex_map, edge_weights};
 
@@ -15,13 +15,12 @@ use crate::solver::convex::{convex_map, edge_weights};
 /// Weights beside a free boundary, an energy or a solver; unknown weights; a factorisation that breaks down.
 pub(in crate::map) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, MapError> {
     let Setup { options, domain, .. } = setup;
-    let Some(name) = &options.weights else { return Ok(Attempt::Unsuitable(Unsuitable::NotAsked)) };
+    let Some(name) = options.weights() else { return Ok(Attempt::Unsuitable(Unsuitable::NotAsked)) };
     let row = edge_weights(name)?;
-    let refused = |help| Err(MapError::WeightsOfNothing { name: name.to_owned(), help });
+    let refused = |clash| Err(MapError::WeightsOfNothing { name: name.to_owned(), clash });
     match () {
-        () if options.boundary != Boundary::Fixed => return refused("use --boundary fixed"),
-        () if options.energy.is_some() => return refused("leave --energy out"),
-        () if options.solver != "auto" => return refused("leave --solver out"),
+        () if options.energy.is_some() => return refused(Clash::Energy),
+        () if options.solver != "auto" => return refused(Clash::Solver),
         () => {}
     }
     let mut fixed = options.fixed(&domain.disc, &domain.graph)?;
@@ -36,7 +35,7 @@ pub(in crate::map) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<A
     let replaced = (solver != row.name).then_some(Replaced { by: Replacement::OtherWeights, flipped: None });
     Ok(Attempt::solved(Map {
         residual: Some(solution.residual),
-        on_circle: options.fixed_on_circle(),
+        on_circle: options.is_fixed_on_circle(),
         provenance: Provenance { replaced, ..Provenance::of(solver) },
         ..Map::solved(solver, z, fixed, h)
     }))

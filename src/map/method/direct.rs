@@ -4,7 +4,7 @@ use super::{Attempt, Unsuitable};
 use crate::constraint::Fixed;
 use crate::energy::conformal;
 use crate::map::setup::Setup;
-use crate::map::{Boundary, Map, MapError, MapOptions};
+use crate::map::{Map, MapError, MapOptions};
 use crate::problem::linear::LinearProblem;
 use crate::quad_graph::QuadGraph;
 use crate::solver::{Observer, solve_linear};
@@ -18,7 +18,7 @@ pub(in crate::map) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<A
     if !expression.rows().all(|row| row.name == "H") {
         return Ok(Attempt::Unsuitable(Unsuitable::Request("the energy is not H alone")));
     }
-    if options.boundary != Boundary::Fixed {
+    if !options.boundary.is_fixed() {
         return Err(MapError::FreeBoundary);
     }
     let fixed = options.fixed(&domain.disc, &domain.graph)?;
@@ -43,7 +43,7 @@ impl MapOptions {
         Ok(Map {
             gradient_norm,
             residual: Some(solution.residual),
-            on_circle: self.fixed_on_circle(),
+            on_circle: self.is_fixed_on_circle(),
             ..Map::solved(solution.backend, solution.z, fixed, total)
         })
     }

@@ -15,7 +15,7 @@ pub struct PeriodsRecord {
     pub basis: [[i64; 2]; 2],
     /// Loops of the mesh with the periods 1 and τ.
     pub loops: [LoopRecord; 2],
-    /// The linear map to texture coordinates with whole-number periods, and its shear: `--tiling whole`.
+    /// The linear map to texture coordinates with whole-number periods, and its shear..
     pub whole: Texture,
     /// H of the map divided by the area of its image, Im τ: 0 for a conformal map.
     pub h_per_area: f64,

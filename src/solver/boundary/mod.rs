@@ -38,7 +38,7 @@ pub enum BoundaryError {
     #[error("backend `reduced` eliminates the interior with integral weights")]
     NonPositiveRho(#[from] NonPositiveRho),
     /// A request that the reduction cannot meet.
-    #[error("backend `reduced` does not take this problem: {reason}; use --solver levenberg-marquardt")]
+    #[error("solver `reduced` does not take this problem: {reason}")]
     Unsuitable {
         /// Why.
         reason: &'static str,
@@ -58,10 +58,7 @@ pub enum BoundaryError {
     #[error(transparent)]
     TwoCircles(#[from] TwoCirclesError),
     /// No further progress, short of the tolerance.
-    #[error(
-        "backend `reduced` stalled after {iterations} iterations with a residual of {residual:.1e}: use \
-         --solver levenberg-marquardt"
-    )]
+    #[error("backend `reduced` stalled after {iterations} iterations with a residual of {residual:.1e}")]
     Stalled {
         /// Newton steps made.
         iterations: usize,

@@ -68,8 +68,8 @@ pub struct LinearSolution {
 pub enum Unsuitable {
     /// The system has more equations than unknowns, or fewer.
     #[error(
-        "system (2) has {equations} equations for {unknowns} unknowns and this backend needs as many: hold the mesh's \
-         boundary vertices and one dual vertex (--hold primal)"
+        "system (2) has {equations} equations for {unknowns} unknowns and this backend needs as many: those of the mesh's \
+         boundary and one dual vertex held"
     )]
     NotSquare {
         /// Quads.
@@ -78,22 +78,20 @@ pub enum Unsuitable {
         unknowns: usize,
     },
     /// Boundary vertices are free.
-    #[error(
-        "boundary vertex {vertex} is free, and the normal equations are real only where all are held (--hold whole)"
-    )]
+    #[error("boundary vertex {vertex} is free, and the normal equations are real only where all are held")]
     FreeBoundary {
         /// The first such vertex of the quad graph.
         vertex: u32,
     },
     /// Unit weights where integral ones are needed.
-    #[error("the normal equations are real with integral weights alone (--weight integral)")]
+    #[error("the normal equations are real with integral weights alone")]
     UnitWeights,
     /// No usable weights.
     #[error(transparent)]
     NonPositiveRho(#[from] NonPositiveRho),
     /// A ρ that is not real.
     #[error(
-        "quad {quad} has Im ρ = {im_rho:e}, and the cotan Laplacian needs diagonals at right angles (--dual circumcentre)"
+        "quad {quad} has Im ρ = {im_rho:e}, and the cotan Laplacian needs diagonals at right angles, those of circumcentres"
     )]
     NotOrthogonal {
         /// The first such quad.
@@ -102,9 +100,7 @@ pub enum Unsuitable {
         im_rho: f64,
     },
     /// The held vertices are not all black boundary vertices and one white vertex.
-    #[error(
-        "the conformal Laplacian needs all boundary vertices of the mesh held, no other, and one dual vertex (--hold primal)"
-    )]
+    #[error("the conformal Laplacian needs all boundary vertices of the mesh held, no other, and one dual vertex")]
     NotPrimal,
 }
 
@@ -130,7 +126,7 @@ pub enum SolveError {
     /// A pivot of a Cholesky factorisation is not positive.
     #[error(
         "backend `{backend}`: the matrix is not positive definite to rounding ({size} unknowns); the mesh has \
-         nearly degenerate faces, or too little is held: try --solver lu or qr, or another dual point"
+         nearly degenerate faces, or too little is held"
     )]
     NotPositiveDefinite {
         /// Its name.
@@ -157,7 +153,7 @@ pub enum SolveError {
     /// The solution is not one.
     #[error(
         "backend `{backend}` left a relative residual of {residual:e}, above {limit:e}: the problem is too badly \
-         conditioned for it; try another --solver (qr is the most robust) or another dual point"
+         conditioned for it"
     )]
     Inaccurate {
         /// Its name.

@@ -25,8 +25,7 @@ pub enum CutError {
     },
     /// The faces removed leave a surface that touches itself.
     #[error(
-        "with these faces the surface touches itself at vertex {vertex}, in {fans} fans of faces: remove other faces, or \
-         let --cut split such vertices"
+        "with these faces the surface touches itself at vertex {vertex}, in {fans} fans of faces: remove other faces"
     )]
     Pinched {
         /// The first such vertex of the source.
@@ -35,10 +34,7 @@ pub enum CutError {
         fans: u32,
     },
     /// The surface is still no disc.
-    #[error(
-        "the surface is then still no disc: boundary loops of {boundary_loops:?} edges, genus {genus}: cut it open \
-         (--cut), or where the genus is 1 map it whole (--boundary periodic)"
-    )]
+    #[error("the surface is then still no disc: boundary loops of {boundary_loops:?} edges, genus {genus}")]
     NoDiscLeft {
         /// Edges of each boundary loop, the longest loop first.
         boundary_loops: Vec<usize>,
@@ -46,16 +42,13 @@ pub enum CutError {
         genus: u64,
     },
     /// A surface with holes where a closed one is needed.
-    #[error("the surface is not closed: it has boundary loops of {boundary_loops:?} edges: fill them (--fill-holes)")]
+    #[error("the surface is not closed: it has boundary loops of {boundary_loops:?} edges")]
     NotClosed {
         /// Edges of each boundary loop, the longest loop first.
         boundary_loops: Vec<usize>,
     },
     /// A hole of an odd number of edges in a quad mesh.
-    #[error(
-        "the hole of {edges} edges at vertex {vertex} cannot be filled with quads, as {edges} is odd: cut it open \
-         (--cut without --fill-holes)"
-    )]
+    #[error("the hole of {edges} edges at vertex {vertex} cannot be filled with quads, as {edges} is odd")]
     OddHole {
         /// The vertex of lowest index around it, as the source numbers them.
         vertex: u32,
@@ -65,7 +58,7 @@ pub enum CutError {
     /// A hole whose edges lie so that no point makes faces of positive area with all of them.
     #[error(
         "the hole of {edges} edges at vertex {vertex} cannot be filled: some of its edges have no length or run back \
-         on themselves: cut it open (--cut without --fill-holes), or repair the mesh there"
+         on themselves"
     )]
     FlatHole {
         /// The vertex of lowest index around it, as the source numbers them.

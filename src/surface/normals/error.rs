@@ -25,23 +25,18 @@ pub enum NormalError {
         surfels: usize,
     },
     /// An estimator that looks at voxels.
-    #[error(
-        "normals by `{estimator}` are made of voxels, and this surface is a mesh without them: use --normals auto, \
-         convolution or hat"
-    )]
+    #[error("normals by `{estimator}` are made of voxels, and this surface is a mesh without them")]
     NotDigital {
         /// Its name.
         estimator: &'static str,
     },
     /// Exact normals of a shape that is not known.
-    #[error(
-        "exact normals are known for generated digital shapes alone ({known}), not for this surface: use --normals auto"
-    )]
+    #[error("exact normals are known for generated digital shapes alone ({known}), not for this surface")]
     NotExact {
         /// Names of generated digital shapes.
         known: String,
     },
     /// Normals of the file, which has none.
-    #[error("the input gives no normals for all faces: use --normals auto")]
+    #[error("the input gives no normals for all faces")]
     NotGiven,
 }

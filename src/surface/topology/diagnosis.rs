@@ -71,53 +71,6 @@ impl Finding {
             _ => Severity::Fatal,
         }
     }
-
-    /// What the user can do, or what the program did.
-    pub fn advice(&self) -> &'static str {
-        match self {
-            Finding::NoFaces => "give a mesh with faces",
-            Finding::NotFinite { .. } => "correct the coordinates",
-            Finding::OutOfRange { .. } => "scale the coordinates: conformal maps do not depend on the unit of length",
-            Finding::Polygons { .. } => {
-                "triangulate all faces, or make all of them quads: meshes of triangles only or of quads only can be mapped"
-            }
-            Finding::RepeatedVertex { .. } => "remove the repeated corner, or the face",
-            Finding::DuplicateFaces { .. } => "remove all but one of each set",
-            Finding::ZeroLengthEdges { fatal: true, .. } => {
-                "merge the two end vertices (collapse the edge), or give its faces a shape (--surrogate)"
-            }
-            Finding::ZeroLengthEdges { .. } => "quads are mapped through their diagonals; nothing need be done",
-            Finding::ZeroAreaFaces { .. } => {
-                "remove or collapse the face, or move a vertex, or have it mapped by a shape of its own (--surrogate)"
-            }
-            Finding::Surrogates { .. } => {
-                "the output keeps them as they are; what is said of distortion leaves them out; a smaller height disturbs their neighbours less \
-                 (--surrogate=HEIGHT)"
-            }
-            Finding::NonManifoldEdges { .. } => "remove surplus faces, or split the edge into one per pair of faces",
-            Finding::NonManifoldVertices { .. } => "split the vertex into one per fan of faces, or let --cut do so",
-            Finding::NonOrientable { .. } => {
-                "a one-sided surface has no conformal map to the plane, and is not cut: separate faces along a one-sided \
-                 loop"
-            }
-            Finding::Reoriented { .. } => "they are turned over for the map; the output keeps the faces as they were",
-            Finding::Components { .. } => "split the mesh, and map one component at a time",
-            Finding::Closed { genus: 0 } => {
-                "cut it open (--cut), or leave a face of a triangle mesh out (--remove-face F)"
-            }
-            Finding::Closed { genus: 1 } => "map it whole, with periods (--boundary periodic), or cut it open (--cut)",
-            Finding::Closed { .. } => "cut it open (--cut)",
-            Finding::NotADisc { genus: 0, .. } => {
-                "fill all holes but the longest (--fill-holes), or cut the surface open (--cut)"
-            }
-            Finding::NotADisc { genus: 1, .. } => {
-                "cut the surface open (--cut), or fill the holes and map it whole (--fill-holes --boundary periodic)"
-            }
-            Finding::NotADisc { .. } => "cut the surface open (--cut)",
-            Finding::Unreferenced { .. } => "they are kept in the output, at the texture coordinate 0 0, and ignored",
-            Finding::CoincidentVertices { .. } => "if the surface should be connected there, weld the vertices first",
-        }
-    }
 }
 
 impl fmt::Display for Finding {

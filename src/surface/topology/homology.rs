@@ -40,10 +40,7 @@ pub struct Cycle {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HomologyError {
     /// A boundary.
-    #[error(
-        "the surface has a boundary of {edges} edges, and a periodic map needs a closed surface: map it with --boundary \
-         circle or free, or fill the holes (--fill-holes)"
-    )]
+    #[error("the surface has a boundary of {edges} edges, and a periodic map needs a closed surface")]
     Boundary {
         /// Boundary edges.
         edges: usize,
@@ -52,16 +49,10 @@ pub enum HomologyError {
     #[error("the surface has more than one connected component: split the mesh, and map one at a time")]
     Disconnected,
     /// A sphere.
-    #[error(
-        "the surface is closed and has genus 0, so no loop to be a period: cut it open (--cut), or remove a face \
-         (--remove-face), for a map to the disc"
-    )]
+    #[error("the surface is closed and has genus 0, so no loop to be a period")]
     Sphere,
     /// More handles than one.
-    #[error(
-        "the surface has genus {genus}, and only surfaces of genus 1 have periodic maps to the plane: cut it open to a disc \
-         (--cut)"
-    )]
+    #[error("the surface has genus {genus}, and only surfaces of genus 1 have periodic maps to the plane")]
     Genus {
         /// Its genus.
         genus: usize,

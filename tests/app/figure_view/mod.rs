@@ -6,7 +6,7 @@ mod shared;
 use riemap::app::experiment::{Checkerboard, checkerboard, checkerboard_pair};
 use riemap::figure::{ALARM, Camera, Colour, FlatMap, Pair, Shading, SurfaceView};
 use riemap::input::Input;
-use riemap::map::{self, MapOptions};
+use riemap::map::{self, Boundary, MapOptions};
 use riemap::solver::Silent;
 use riemap::surface::Faces;
 
@@ -126,11 +126,12 @@ fn a_map_and_its_surface_stand_side_by_side() {
 
 #[test]
 fn maps_of_all_kinds_have_a_checkerboard() {
-    for (source, boundary) in
-        [("sphere?n=12", "circle"), ("graph:cos+cos?n=13&mesh=triangle", "free"), ("torus?n=12", "periodic")]
-    {
+    for (source, boundary) in [
+        ("sphere?n=12", Boundary::CIRCLE),
+        ("graph:cos+cos?n=13&mesh=triangle", Boundary::FREE),
+        ("torus?n=12", Boundary::Periodic),
+    ] {
         let input = Input::open(source).unwrap();
-        let boundary = serde_json::from_value(boundary.into()).unwrap();
         let mapped = map::run(&input, &MapOptions { boundary, ..MapOptions::default() }, &mut Silent).unwrap();
         let picture = Pixels::of(&checkerboard(&input, &mapped, Checkerboard::default(), source).unwrap());
         let inked = picture.rgb.chunks(3).filter(|c| *c != PAPER.0).count();

@@ -25,14 +25,14 @@ fn written(input: &Input, options: &MapOptions) -> (Mapped, File) {
 
 fn of_name(name: &str, boundary: Boundary, cut: bool) -> (Input, Mapped, File) {
     let input = Input::open(name).unwrap();
-    let (mapped, file) = written(&input, &MapOptions { boundary, cut, ..MapOptions::default() });
+    let (mapped, file) = written(&input, &MapOptions { boundary: boundary.clone(), cut, ..MapOptions::default() });
     (input, mapped, file)
 }
 
 const CASES: [(&str, Boundary, bool); 5] = [
-    ("graph:cos+cos?n=9", Boundary::Circle, false),
-    ("sphere?n=8&mesh=delaunay", Boundary::Free, false),
-    ("digital-torus?R=5&r=2", Boundary::Free, true),
+    ("graph:cos+cos?n=9", Boundary::CIRCLE, false),
+    ("sphere?n=8&mesh=delaunay", Boundary::FREE, false),
+    ("digital-torus?R=5&r=2", Boundary::FREE, true),
     ("digital-torus?R=8&r=3.2", Boundary::Periodic, false),
     ("torus?R=2&r=0.8&n=12&mesh=triangle", Boundary::Periodic, false),
 ];
@@ -45,7 +45,7 @@ fn rounding<const N: usize>(points: &[[f64; N]]) -> f64 {
 #[test]
 fn every_triangle_is_a_part_of_its_face_with_the_places_that_the_map_gives() {
     for (name, boundary, cut) in CASES {
-        let (input, mapped, file) = of_name(name, boundary, cut);
+        let (input, mapped, file) = of_name(name, boundary.clone(), cut);
         let (disc, image) = (&mapped.domain.disc, mapped.image());
         let (positions, map, triangles) = (file.positions(), file.map(), file.triangles());
         // The map comes back from texture coordinates by one affine map more, each rounded: 4 for the longer of its rows.
@@ -84,7 +84,7 @@ fn every_triangle_is_a_part_of_its_face_with_the_places_that_the_map_gives() {
 
 #[test]
 fn a_vertex_is_there_once_where_map_and_light_allow_it_and_in_the_order_of_the_source() {
-    let (input, _, file) = of_name("graph:cos+cos?n=33", Boundary::Circle, false);
+    let (input, _, file) = of_name("graph:cos+cos?n=33", Boundary::CIRCLE, false);
     let far = |(p, q): (&[f64; 3], &[f64; 3])| (0..3).map(|k| (p[k] - q[k]).abs()).fold(0.0, f64::max);
     let positions = file.positions();
     assert_eq!(positions.len(), input.surface.positions.len());
@@ -101,7 +101,7 @@ fn a_vertex_is_there_once_where_map_and_light_allow_it_and_in_the_order_of_the_s
 
 #[test]
 fn the_picture_has_the_squares_of_the_checkerboard_upright() {
-    let (_, mapped, file) = of_name("enneper?n=8", Boundary::Circle, false);
+    let (_, mapped, file) = of_name("enneper?n=8", Boundary::CIRCLE, false);
     let picture = file.view(&file.json["images"][0]["bufferView"]);
     let mut reader = png::Decoder::new(std::io::Cursor::new(picture)).read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
@@ -137,7 +137,7 @@ fn the_picture_has_the_squares_of_the_checkerboard_upright() {
 #[test]
 fn the_checkerboard_of_a_periodic_map_has_no_seam() {
     for (name, boundary, cut) in CASES.into_iter().filter(|case| case.1 == Boundary::Periodic) {
-        let (_, _, file) = of_name(name, boundary, cut);
+        let (_, _, file) = of_name(name, boundary.clone(), cut);
         let mut first: HashMap<[u64; 3], [f64; 2]> = HashMap::new();
         let mut apart = 0;
         for (p, st) in file.positions().iter().zip(file.floats::<2>("TEXCOORD_0")) {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, Valid, run};
+use riemap::map::{Boundary, FlatOptions, MapOptions, ValidName, run};
 use riemap::surface::Surface;
 
 use super::shapes::*;
@@ -22,8 +22,9 @@ fn ramp(turns: f64, n: u32) -> Surface {
 
 #[test]
 fn free_maps_that_overlap_are_replaced_by_maps_that_do_not_where_that_is_asked_for() {
-    let free = |s: &Surface, valid| {
-        mapped(s.clone(), &MapOptions { boundary: Boundary::Free, valid, ..MapOptions::default() }, "free")
+    let free = |s: &Surface, overlap| {
+        let boundary = Boundary::Free { lengths: None, overlap };
+        mapped(s.clone(), &MapOptions { boundary, ..MapOptions::default() }, "free")
     };
     let shapes = [
         ("ramp of quads", ramp(1.3, 60)),
@@ -33,7 +34,7 @@ fn free_maps_that_overlap_are_replaced_by_maps_that_do_not_where_that_is_asked_f
     ];
     let mut kept = 0;
     for (what, s) in &shapes {
-        let (may, must_not) = (free(s, Valid::Auto), free(s, Valid::OneToOne));
+        let (may, must_not) = (free(s, true), free(s, false));
         shows(what, &must_not);
         assert!(must_not.validity.is_one_to_one(), "{what}: {:?}", must_not.validity);
         // What is one-to-one already stays.
@@ -48,15 +49,19 @@ fn free_maps_that_overlap_are_replaced_by_maps_that_do_not_where_that_is_asked_f
 #[test]
 fn circle_maps_that_must_not_overlap_are_the_default_ones() {
     let s = rough(12, &mut Random(5));
-    let circle = |valid| mapped(s.clone(), &MapOptions { valid, ..MapOptions::default() }, "rough").map.z;
-    assert_eq!(circle(Valid::Auto), circle(Valid::OneToOne));
+    let circle = |valid| {
+        let options = MapOptions::try_from(FlatOptions { valid, ..FlatOptions::default() }).unwrap();
+        mapped(s.clone(), &options, "rough").map.z
+    };
+    assert_eq!(circle(ValidName::Auto), circle(ValidName::OneToOne));
 }
 
 #[test]
 fn a_free_map_that_is_stopped_on_its_way_past_itself_does_not_overlap() {
     let s = triangulated(&ramp(1.3, 40));
     for n in [0, 1, 5, 10, 20, 40, 60, 80, 120] {
-        let options = MapOptions { boundary: Boundary::Free, valid: Valid::OneToOne, ..MapOptions::default() };
+        let boundary = Boundary::Free { lengths: None, overlap: false };
+        let options = MapOptions { boundary, ..MapOptions::default() };
         let stopped = run(&Input::of("ramp".to_owned(), s.clone()), &options, &mut Stopper(n)).unwrap();
         assert!(stopped.validity.is_one_to_one(), "stopped after {n}");
     }

@@ -119,7 +119,7 @@ pub fn assert_valid(s: &Surface, what: &str) {
     shows(&format!("{what}, circle"), &circle);
     assert!(circle.validity.is_one_to_one(), "{what}: {:?}", circle.validity);
     assert_eq!(circle.distortion.boundary_out_of_order, Some(0), "{what}");
-    let free = mapped(s.clone(), &MapOptions { boundary: Boundary::Free, ..MapOptions::default() }, what);
+    let free = mapped(s.clone(), &MapOptions { boundary: Boundary::FREE, ..MapOptions::default() }, what);
     shows(&format!("{what}, free"), &free);
     assert!(free.validity.is_locally_one_to_one(), "{what}: {:?}", free.validity);
 }

@@ -1,7 +1,7 @@
 //! The points that the plain circle map holds, in the map that takes its place.
 
 use riemap::input::Input;
-use riemap::map::{MapOptions, Valid, run};
+use riemap::map::{Boundary, MapOptions, PinnedPoints, Valid, run};
 use riemap::solver::Silent;
 
 use super::shapes::*;
@@ -84,13 +84,17 @@ fn where_three_points_are_too_much_for_doubles_one_is_held() {
 #[test]
 fn two_points_are_met_too_where_two_are_asked_for() {
     let s = rough(20, &mut Random(3));
-    for (fix, valid) in [(2, Valid::Auto), (3, Valid::Auto), (2, Valid::BestQc), (3, Valid::BestQc)] {
-        let of = |valid| mapped(s.clone(), &MapOptions { fix, valid, ..MapOptions::default() }, "rough");
+    use PinnedPoints::{Three, Two};
+    for (pinned, valid) in [(Two, Valid::Auto), (Three, Valid::Auto), (Two, Valid::BestQc), (Three, Valid::BestQc)] {
+        let boundary = Boundary::Circle { pinned, ordered: false };
+        let of = |valid| {
+            mapped(s.clone(), &MapOptions { boundary: boundary.clone(), valid, ..MapOptions::default() }, "rough")
+        };
         let (plain, repaired) = (of(Valid::Off), of(valid));
         assert!(repaired.map.provenance.is_repaired() && repaired.validity.is_one_to_one());
-        assert_eq!(plain.map.fixed.len(), fix);
+        assert_eq!(plain.map.fixed.len(), if pinned == Two { 2 } else { 3 });
         for (v, place) in plain.map.fixed.iter() {
-            assert!((repaired.map.z[v as usize] - place).norm() < 1e-12, "{fix} {valid:?}");
+            assert!((repaired.map.z[v as usize] - place).norm() < 1e-12, "{pinned:?} {valid:?}");
         }
     }
 }

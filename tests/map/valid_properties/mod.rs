@@ -27,7 +27,8 @@ fn config(cases: u32) -> ProptestConfig {
 
 fn mapped(s: &Surface, boundary: Boundary, surrogate: Option<f64>, what: &str) -> Result<Mapped, MapError> {
     // Valid at any time: few iterations show as much as many.
-    let options = MapOptions { boundary, surrogate, max_iterations: Some(60), ..MapOptions::default() };
+    let options =
+        MapOptions { boundary: boundary.clone(), surrogate, max_iterations: Some(60), ..MapOptions::default() };
     run(&Input::of(what.to_owned(), s.clone()), &options, &mut Silent)
 }
 
@@ -42,12 +43,12 @@ fn check(seed: u64, size: usize, topology: Topology, shape: Shape, quads: bool) 
     let surrogate = (shape == Shape::Collapsed).then_some(Surrogates::HEIGHT);
     prop_assume!(surrogate.is_some() || is_proper(&s));
     let what = format!("random_disc({seed}, {size}, Topology::{topology:?}, Shape::{shape:?}, {quads})");
-    for boundary in [Boundary::Circle, Boundary::Free] {
-        let mapped = mapped(&s, boundary, surrogate, &what)
+    for boundary in [Boundary::CIRCLE, Boundary::FREE] {
+        let mapped = mapped(&s, boundary.clone(), surrogate, &what)
             .map_err(|error| TestCaseError::fail(format!("{what}, {boundary:?}: {error}")))?;
         let in_order = !mapped.map.provenance.is_repaired() || mapped.distortion.boundary_out_of_order == Some(0);
         let fine = match boundary {
-            Boundary::Circle => mapped.validity.is_one_to_one() && in_order,
+            Boundary::Circle { .. } => mapped.validity.is_one_to_one() && in_order,
             _ => mapped.validity.is_locally_one_to_one(),
         };
         prop_assert!(fine, "{what}, {boundary:?}: {:?}", mapped.validity);

@@ -10,7 +10,9 @@ use crate::energy::Expression;
 use crate::energy::conformal::Weight;
 use crate::io::{is_glb, read_boundary_lengths, read_positions};
 use crate::map::periodic::Tiling;
-use crate::map::{Boundary, Hold, MapOptions, Mapped, Pin, RhoSource, Start, Valid};
+use crate::map::{
+    Boundary, BoundaryName, FlatOptions, Hold, MapError, MapOptions, Mapped, Pin, RhoSource, Start, ValidName,
+};
 use crate::quad_graph::RestSource;
 use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
 use crate::solver::convex::EDGE_WEIGHTS;
@@ -30,8 +32,8 @@ pub struct Arguments {
     pub(super) output: Option<PathBuf>,
     /// What the boundary does. circle: H + C; free: H + L', its lengths kept; fixed: H, boundary held on --shape;
     /// periodic: H, closed surfaces of genus 1, two periods [default: circle]
-    #[arg(long, value_parser = by_name::<Boundary>)]
-    pub(super) boundary: Option<Boundary>,
+    #[arg(long, value_parser = by_name::<BoundaryName>)]
+    pub(super) boundary: Option<BoundaryName>,
     /// Cut a surface that is no disc open along short lines; the output then has texture coordinates per corner
     #[arg(long)]
     pub(super) cut: bool,
@@ -72,8 +74,8 @@ pub struct Arguments {
     /// A circle or free map that folds is replaced by a valid one of little shear (auto; also a circle map of σ1/σ2 above 2 in the mean), or
     /// any where the other has less shear (best-qc). Free maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an
     /// --energy or pins of one's own do
-    #[arg(long, value_parser = by_name::<Valid>)]
-    pub(super) valid: Option<Valid>,
+    #[arg(long, value_parser = by_name::<ValidName>)]
+    pub(super) valid: Option<ValidName>,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper [default: 3]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=3))]
     pub(super) fix: Option<u8>,
@@ -147,45 +149,21 @@ impl Arguments {
     }
 }
 
-/// Fails where options contradict each other.
-fn refuse_contradictions(arguments: &Arguments, options: &MapOptions) -> Result<()> {
-    let fixed = options.boundary == Boundary::Fixed;
-    for (given, name) in [
-        (arguments.shape.is_some(), "--shape"),
-        (arguments.positions.is_some(), "--positions"),
-        (arguments.hold.is_some(), "--hold"),
-        (arguments.weights.is_some(), "--weights"),
-    ] {
-        if given && !fixed {
-            bail!("{name} says where a fixed boundary is held: use it with --boundary fixed");
-        }
-    }
-    if arguments.trace.is_some() && is_linear(options) {
-        bail!("--trace is for nonlinear maps, and this one is solved directly: leave it out");
-    }
-    let mut pinned: Vec<u32> = arguments.pin.iter().map(|pin| pin.vertex).collect();
-    pinned.sort_unstable();
-    if let Some(twice) = pinned.windows(2).find(|pair| pair[0] == pair[1]) {
-        bail!("vertex {} is pinned twice: one place is enough", twice[0]);
-    }
-    Ok(())
-}
-
 /// Whether one linear solve makes the map.
 fn is_linear(options: &MapOptions) -> bool {
     options.boundary == Boundary::Periodic
-        || options.boundary == Boundary::Fixed && options.expression().terms.iter().all(|term| term.name == "H")
+        || options.boundary.is_fixed() && options.expression().terms.iter().all(|term| term.name == "H")
 }
 
 /// Options that were given and change nothing, each with the reason.
 pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped: &Mapped) -> Vec<&'static str> {
     let (triangles, opening) = (mapped.domain.is_of_triangles(), &mapped.cut);
-    let circle = options.expression().has("C") && options.boundary != Boundary::Fixed;
+    let circle = options.expression().has("C") && !options.boundary.is_fixed();
     let linear = is_linear(options);
     let idle = [
-        (arguments.boundary == Some(Boundary::Free) && circle, "--boundary free has no effect: the energy has C"),
+        (arguments.boundary == Some(BoundaryName::Free) && circle, "--boundary free has no effect: the energy has C"),
         (
-            arguments.boundary == Some(Boundary::Circle) && !circle,
+            arguments.boundary == Some(BoundaryName::Circle) && !circle,
             "--boundary circle has no effect: the energy has no C",
         ),
         (arguments.fix.is_some() && !circle, "--fix has no effect: this is no circle map"),
@@ -231,9 +209,9 @@ fn height(text: &str) -> Result<f64, String> {
 
 /// What of this concerns valid maps: where none is promised, and what one that is in the place of the plain map does not see.
 fn valid_without_effect(arguments: &Arguments, options: &MapOptions, repaired: bool) -> [(bool, &'static str); 8] {
-    let given = arguments.valid.is_some_and(|valid| valid != Valid::Off);
-    let one_to_one = arguments.valid == Some(Valid::OneToOne);
-    let repaired = repaired && options.weights.is_none();
+    let given = arguments.valid.is_some_and(|valid| valid != ValidName::Off);
+    let one_to_one = arguments.valid == Some(ValidName::OneToOne);
+    let repaired = repaired && options.weights().is_none();
     [
         (
             given && options.energy.is_some(),
@@ -241,11 +219,11 @@ fn valid_without_effect(arguments: &Arguments, options: &MapOptions, repaired: b
         ),
         (given && !options.pins.is_empty(), "--valid has no effect beside pins: the map is checked alone"),
         (
-            given && options.boundary_lengths.is_some(),
+            given && options.boundary_lengths().is_some(),
             "--valid has no effect beside --boundary-lengths: the map is checked alone",
         ),
         (
-            given && options.boundary == Boundary::Fixed && options.weights.is_none(),
+            given && options.boundary.is_fixed() && options.weights().is_none(),
             "--valid has no effect on a fixed boundary without --weights: the map is checked alone",
         ),
         (
@@ -253,11 +231,11 @@ fn valid_without_effect(arguments: &Arguments, options: &MapOptions, repaired: b
             "--valid has no effect: nothing takes the place of a map with periods, which is checked alone",
         ),
         (
-            one_to_one && options.boundary == Boundary::Circle && options.promises_valid(),
+            one_to_one && options.boundary.is_circle() && options.promises_valid(),
             "--valid one-to-one says no more than auto here: circle maps do not overlap",
         ),
         (
-            repaired && options.keep_order,
+            repaired && options.is_ordered(),
             "--keep-order has no effect: the map in the place of the plain one is in order by itself",
         ),
         (
@@ -293,20 +271,19 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
             Some(pins.collect())
         }
     };
-    let defaults = MapOptions::default();
-    let options = MapOptions {
+    let flat = FlatOptions {
         cut: arguments.cut,
         fill_holes: arguments.fill_holes,
         remove_faces: arguments.remove_face.clone(),
         surrogate: arguments.surrogate,
-        boundary: arguments.boundary.unwrap_or_default(),
+        boundary: arguments.boundary,
         energy: arguments.energy.clone(),
-        fix: arguments.fix.map_or(defaults.fix, usize::from),
+        fix: arguments.fix.map(usize::from),
         keep_order: arguments.keep_order,
         start: arguments.start,
-        tolerance: arguments.tolerance.unwrap_or(defaults.tolerance),
+        tolerance: arguments.tolerance,
         max_iterations: arguments.max_iterations,
-        shape: arguments.shape.unwrap_or_default(),
+        shape: arguments.shape,
         positions,
         boundary_lengths: arguments.boundary_lengths.as_deref().map(read_boundary_lengths).transpose()?,
         pins: arguments.pin.clone(),
@@ -314,13 +291,16 @@ pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
         weights: arguments.weights.clone(),
         valid: arguments.valid.unwrap_or_default(),
         weight: arguments.weight,
-        dual: arguments.dual.clone(),
+        dual: Some(arguments.dual.clone()),
         boundary_dual: arguments.boundary_dual,
         rho: arguments.rho,
         normals: arguments.normals.clone(),
         rest: arguments.rest,
-        solver: arguments.solver.clone(),
+        solver: Some(arguments.solver.clone()),
     };
-    refuse_contradictions(arguments, &options)?;
+    let options = MapOptions::try_from(flat).map_err(MapError::from)?;
+    if arguments.trace.is_some() && is_linear(&options) {
+        bail!("--trace is for nonlinear maps, and this one is solved directly: leave it out");
+    }
     Ok(options)
 }

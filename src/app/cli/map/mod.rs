@@ -9,6 +9,7 @@ use std::io::Write;
 
 use anyhow::{Context, Result, bail};
 
+use crate::app::cli::advice::of_finding;
 use crate::app::measure::stopwatch::Stopwatch;
 use crate::map::periodic::Tiling;
 use crate::map::{self, Ending};
@@ -35,7 +36,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     let record = Report::new(&input, &mapped, progress.watch.cost());
 
     for finding in &mapped.findings {
-        eprintln!("riemap: note: {finding}: {}", finding.advice());
+        eprintln!("riemap: note: {finding}: {}", of_finding(finding));
     }
     for reason in without_effect(arguments, &options, &mapped) {
         eprintln!("riemap: note: {reason}");

@@ -3,7 +3,7 @@ use std::io::Write;
 use anyhow::Result;
 
 use crate::io::LengthUnit;
-use crate::map::{Boundary, Ending, MapOptions, Mapped, Replacement, Valid};
+use crate::map::{Boundary, Ending, MapOptions, Mapped, PinnedPoints, Replacement};
 use crate::report::{EnergyRecord, Report};
 use crate::solver::Status;
 
@@ -13,7 +13,11 @@ use crate::app::cli::plural;
 /// Says on the standard error stream where the map is not one-to-one, and what may help.
 pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
     let Mapped { map, distortion, validity, .. } = mapped;
-    if options.fix == 2 && options.pins.is_empty() && map.on_circle && map.smallest_singular_value.is_some() {
+    if options.pinned_points() == PinnedPoints::Two
+        && options.pins.is_empty()
+        && map.on_circle
+        && map.smallest_singular_value.is_some()
+    {
         eprintln!(
             "riemap: warning: two fixed points leave a circle map (nearly) free to move: the smallest singular value is \
              {:.1e}; --fix 3 makes it unique",
@@ -39,7 +43,7 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         }
         _ => {}
     }
-    if map.provenance.is_repaired() && options.weights.is_none() {
+    if map.provenance.is_repaired() && options.weights().is_none() {
         let was = match map.provenance.flipped() {
             None => "did not converge".to_owned(),
             Some(0) => "had a boundary that crosses itself".to_owned(),
@@ -55,11 +59,15 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
              plain one)"
         );
     }
-    if map.provenance.is_repaired() && map.on_circle && options.weights.is_none() && map.fixed.len() < options.fix {
+    if map.provenance.is_repaired()
+        && map.on_circle
+        && options.weights().is_none()
+        && map.fixed.len() < options.pinned_points().count()
+    {
         eprintln!(
             "riemap: note: one boundary point is where it was to be, and not {}: a map with these in their places has parts that \
              are too small for double precision",
-            options.fix
+            options.pinned_points().count()
         );
     }
     let mut help: Vec<&str> = Vec::new();
@@ -69,12 +77,13 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         Ending::Solved if mapped.torus.is_some() => {}
         Ending::Solved => help.push("another --shape"),
         Ending::Minimised(_) if map.on_circle => {
-            help.extend((!options.keep_order).then_some("--keep-order"));
+            help.extend((!options.is_ordered()).then_some("--keep-order"));
             help.push("--boundary free");
         }
         Ending::Minimised(_) => {
-            let may_overlap = options.boundary == Boundary::Free && options.promises_valid();
-            help.extend((may_overlap && options.valid != Valid::OneToOne).then_some("--valid one-to-one"));
+            let may_overlap =
+                matches!(options.boundary, Boundary::Free { overlap: true, .. }) && options.promises_valid();
+            help.extend(may_overlap.then_some("--valid one-to-one"));
             help.push("--boundary circle");
         }
     }

@@ -6,18 +6,19 @@ use serde_json::json;
 use super::{Drawn, GREY, INK, Point, Subject, VERMILION, closed, label, line};
 use crate::app::experiment::RunError;
 use crate::figure::{Colour, Diagram, Form, Item, Panel};
-use crate::map::{self, MapOptions, Mapped, Valid};
+use crate::map::{self, Boundary, MapOptions, Mapped, PinnedPoints, Valid};
 use crate::solver::Silent;
 use crate::surface::edges::Edges;
 
 /// Numbers of fixed points.
-const FIXED: [usize; 2] = [2, 3];
+const FIXED: [PinnedPoints; 2] = [PinnedPoints::Two, PinnedPoints::Three];
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
     let (mut panels, mut numbers) = (Vec::new(), serde_json::Map::new());
-    for (fix, word) in FIXED.into_iter().zip(["two", "three"]) {
+    for (pinned, word) in FIXED.into_iter().zip(["two", "three"]) {
         // What the minimisation begins with is its map after no iteration.
-        let options = MapOptions { fix, max_iterations: Some(0), valid: Valid::Off, ..subject.options.clone() };
+        let boundary = Boundary::Circle { pinned, ordered: false };
+        let options = MapOptions { boundary, max_iterations: Some(0), valid: Valid::Off, ..subject.options.clone() };
         let mapped = map::run(subject.input, &options, &mut Silent)?;
         if panels.is_empty() {
             panels

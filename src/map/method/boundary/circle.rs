@@ -33,7 +33,7 @@ pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, 
     if !(1..=3).contains(&pins.len()) {
         return Ok(Attempt::Unsuitable(Unsuitable::Request("more than three boundary points are held")));
     }
-    if is_asked(options) && options.keep_order {
+    if is_asked(options) && options.is_ordered() {
         return Ok(Attempt::Unsuitable(Unsuitable::Request("it does not keep the boundary in order")));
     }
     watch.phase(Phase::Assemble);

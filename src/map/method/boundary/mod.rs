@@ -10,7 +10,7 @@ use super::{Attempt, Unsuitable};
 use crate::energy::Expression;
 use crate::energy::conformal::Weight;
 use crate::map::setup::Setup;
-use crate::map::{Boundary, MapError, MapOptions};
+use crate::map::{MapError, MapOptions};
 use crate::solver::boundary::{self, BoundaryError, Reduction};
 use crate::solver::{Observer, Phase};
 
@@ -61,7 +61,7 @@ impl BoundaryProblem {
         if options.weight != Weight::Integral {
             return Err("it needs integral weights");
         }
-        if options.boundary == Boundary::Fixed {
+        if options.boundary.is_fixed() {
             return Err("the whole boundary is held");
         }
         let is =

@@ -17,12 +17,12 @@ pub(super) fn start(setup: &Setup, metric: &RestMetric, watch: &mut dyn Observer
     let Setup { options, domain, expression, normalisation } = setup;
     let graph = &domain.graph;
     let fixed = match options.boundary {
-        Boundary::Fixed => options.fixed(&domain.disc, graph)?,
+        Boundary::Fixed { .. } => options.fixed(&domain.disc, graph)?,
         _ => on_circle(graph, 1.0, normalisation.or_first())?,
     };
     let z = domain.convex_start(&fixed, &|_| true, watch)?;
     let mut z = domain.with_dual_vertices(z, &fixed);
-    if options.boundary != Boundary::Fixed && !expression.has("C") && expression.rows().any(|row| row.metric) {
+    if !options.boundary.is_fixed() && !expression.has("C") && expression.rows().any(|row| row.metric) {
         let scale = (metric.surface_area() / domain.image_area(&z)).sqrt();
         z.iter_mut().for_each(|z| *z *= scale);
     }
@@ -34,7 +34,7 @@ pub(super) fn start(setup: &Setup, metric: &RestMetric, watch: &mut dyn Observer
 pub(super) fn unit_of_shapes(setup: &Setup, metric: &RestMetric, z: &[Complex64]) -> f64 {
     let Setup { options, domain, expression, .. } = setup;
     let integral = options.weight == Weight::Integral;
-    let free = expression.rows().any(|row| row.metric) && options.boundary != Boundary::Fixed;
+    let free = expression.rows().any(|row| row.metric) && !options.boundary.is_fixed();
     if integral && !free { domain.image_area(z) / metric.surface_area() } else { 1.0 }
 }
 

@@ -12,7 +12,7 @@ use super::Attempt;
 use crate::constraint::{Fixed, float_white_back, hold_gauge, on_circle, turn_back};
 use crate::map::gauge::held;
 use crate::map::setup::Setup;
-use crate::map::{Boundary, Ending, Map, MapError, MapOptions};
+use crate::map::{Ending, Map, MapError, MapOptions};
 use crate::problem::linear::LinearProblem;
 use crate::solver::minimise::smallest_singular_value;
 use crate::solver::{MINIMISERS, Minimiser, Minimum, Observer, Silent, Status, StopRule, minimiser, solve_linear};
@@ -67,7 +67,7 @@ pub(in crate::map) fn solve(
     let rule = StopRule { tolerance: options.tolerance, reference: None, max_iterations: options.max_iterations };
     let run = |rule: StopRule, watch: &mut dyn Observer| {
         let start = start.clone();
-        if options.keep_order && circle {
+        if options.is_ordered() && circle {
             stages.in_order(solver, start, rule, watch)
         } else if stages.is_stiff() && solver.name() == MINIMISERS[0].name() {
             stages.softened_first(solver, &objective, start, rule, watch)
@@ -90,7 +90,7 @@ pub(in crate::map) fn solve(
 
     let mut z = objective.freedoms.expand(&minimum.y);
     let is_metric = ["A", "L", "Lb"].iter().any(|name| expression.has(name));
-    let has_gauge = is_metric && options.boundary != Boundary::Fixed && options.pins.is_empty() && !expression.has("C");
+    let has_gauge = is_metric && !options.boundary.is_fixed() && options.pins.is_empty() && !expression.has("C");
     if has_gauge {
         turn_back(expression, graph, &first, &mut z);
     }
@@ -116,7 +116,7 @@ pub(in crate::map) fn solve(
         ending: Ending::Minimised(minimum.status),
         iterations,
         smallest_singular_value,
-        on_circle: circle || (options.boundary == Boundary::Fixed && options.fixed_on_circle()),
+        on_circle: circle || (options.is_fixed_on_circle()),
         anchored: normalisation.exact,
         ..Map::solved(solver.name(), z, fixed, None)
     }))
@@ -147,7 +147,7 @@ fn is_accepted(minimum: &Minimum, options: &MapOptions) -> bool {
 
 fn not_converged(solver: &dyn Minimiser, minimum: &Minimum, iterations: usize, options: &MapOptions) -> Attempt {
     let reason = MapError::NotConverged {
-        backend: solver.name(),
+        solver: solver.name(),
         status: minimum.status.name(),
         iterations,
         reduction: minimum.reduction(),
@@ -160,7 +160,7 @@ fn not_converged(solver: &dyn Minimiser, minimum: &Minimum, iterations: usize, o
 fn initial(setup: &Setup) -> Result<Vec<Complex64>, MapError> {
     let Setup { options, domain, expression, normalisation } = setup;
     let graph = &domain.graph;
-    let fixed = if options.boundary == Boundary::Fixed {
+    let fixed = if options.boundary.is_fixed() {
         options.fixed(&domain.disc, graph)?
     } else {
         let lengths_count = expression.rows().any(|row| row.metric) && !expression.has("C");

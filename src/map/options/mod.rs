@@ -1,3 +1,11 @@
+//! What is asked of a map.
+
+mod boundary;
+mod flat;
+
+pub use boundary::{Boundary, BoundaryName, Hold, Interior, Outline, PinnedPoints};
+pub use flat::{FlatOptions, OptionsError, ValidName};
+
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -25,21 +33,6 @@ pub struct Pin {
     pub place: [f64; 2],
 }
 
-/// What the boundary does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Boundary {
-    /// It is drawn to the unit circle: H + C, unless an energy is given.
-    #[default]
-    Circle,
-    /// It keeps its lengths: H + L', unless an energy is given.
-    Free,
-    /// It is held on a shape: H, unless an energy is given.
-    Fixed,
-    /// There is none: closed surfaces of genus 1 are mapped with two periods, by H.
-    Periodic,
-}
-
 /// What the ρ of a quad mesh is computed from, where no estimator of normals is named.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -53,16 +46,6 @@ pub enum RhoSource {
     Auto,
 }
 
-/// Which boundary vertices of the quad graph a fixed boundary holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Hold {
-    /// All of them: H is minimised in least squares.
-    Whole,
-    /// Those of the mesh, and one dual vertex: (2) is square and solved exactly. The same as `whole` on quad meshes.
-    Primal,
-}
-
 /// The map that a minimisation begins with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -74,27 +57,25 @@ pub enum Start {
     Circle,
 }
 
-/// What takes the place of a map that is not one-to-one, or with a free boundary not so near every point: of the plain circle and free
-/// maps, without an energy or pins of one's own, and of convex combination maps that rounding has folded. Other maps are checked alone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+/// Which map replaces a conformal one that is not injective. It is replaced for circle and free maps by the energy of their boundary and
+/// without pins, and for convex combination maps where rounding has flipped a face. All others are checked, and kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Valid {
-    /// A valid map of little shear: the lowest MIPS with all faces counting alike, with a free boundary MIPS + γ'L'. Also in the place of a
-    /// circle map that folds nothing but shears by more than 2 in the mean.
+    /// The same map with its flipped faces unflipped in place where that is possible; else a bijective map of low quasi-conformal
+    /// distortion: the lowest MIPS with all faces counting alike, with a free boundary MIPS + γ'L'.
     #[default]
     Auto,
-    /// That map in the place of a valid plain one, too, where its mean σ1/σ2 is lower: on coarse and obtuse meshes. On fine ones the
-    /// plain map is nearer to the exact one.
+    /// That bijective map. It also replaces an injective conformal map of higher mean σ1/σ2: on coarse and obtuse meshes. On fine ones
+    /// the conformal map is nearer to the exact one.
     BestQc,
-    /// As `auto`; and of free maps no two parts may overlap: where they do a map whose boundary keeps off itself is in their place.
-    OneToOne,
-    /// Nothing.
+    /// None.
     Off,
 }
 
-/// What is asked of a map; the `[map]` table of an experiment.
+/// The request: how the surface becomes a disc, what its boundary does, the energy, and how it is minimised. [`FlatOptions`] reads the
+/// same from flat keys.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(try_from = "FlatOptions")]
 pub struct MapOptions {
     /// Whether a surface that is no disc is cut open along a short graph.
     pub cut: bool,
@@ -106,28 +87,14 @@ pub struct MapOptions {
     pub surrogate: Option<f64>,
     /// What the boundary does.
     pub boundary: Boundary,
-    /// The energy, in place of the one that `boundary` stands for.
+    /// The energy, instead of the one that `boundary` stands for.
     pub energy: Option<Expression>,
-    /// What a fixed boundary is laid on.
-    pub shape: Shape,
-    /// Places of boundary vertices, in place of `shape`.
-    pub positions: Option<Vec<Pin>>,
-    /// Free maps: lengths of the boundary edges in the place of those at rest.
-    pub boundary_lengths: Option<BoundaryLengths>,
-    /// Vertices held beside a fixed boundary, or elsewhere than it says; in place of `fix` for the circle; in place of
-    /// the gauge for metric energies.
+    /// Vertices pinned beside a fixed boundary, or elsewhere than it says; for circle maps instead of the two or three points; for metric
+    /// energies instead of the gauge.
     pub pins: Vec<Pin>,
-    /// Which boundary vertices are held by a fixed boundary; by default `whole`, with circumcentres `primal`.
-    pub hold: Option<Hold>,
-    /// With a fixed boundary: the vertices inside are means of their neighbours by these weights, in place of the minimum of H.
-    pub weights: Option<String>,
-    /// What takes the place of a map that is not one-to-one.
+    /// Which map replaces a conformal one that is not injective.
     pub valid: Valid,
-    /// How many boundary points a circle map holds: 3, or 2 as in the paper.
-    pub fix: usize,
-    /// Circle maps: whether the boundary is kept in order.
-    pub keep_order: bool,
-    /// What a minimisation begins with.
+    /// The map that a minimisation starts from.
     pub start: Start,
     /// Weights of the energies.
     pub weight: Weight,
@@ -135,17 +102,17 @@ pub struct MapOptions {
     pub dual: String,
     /// Dual vertex of boundary edges.
     pub boundary_dual: BoundaryDual,
-    /// What ρ of quad meshes comes from.
+    /// What ρ of quad meshes is computed from.
     pub rho: RhoSource,
-    /// The estimator of normals from which ρ of quad meshes and digital surfaces is taken, in place of `rho`.
+    /// The estimator of normals from which ρ of quad meshes and digital surfaces is computed, instead of `rho`.
     pub normals: Option<NormalSpec>,
-    /// With normals: what rest lengths and areas are.
+    /// With normals: which lengths and areas are those at rest.
     pub rest: RestSource,
-    /// Name of the backend, or `auto`.
+    /// Name of the solver, or `auto`.
     pub solver: String,
     /// Nonlinear maps have converged when |∇E| is at most this times its value at the start.
     pub tolerance: f64,
-    /// Iterations at most; by default the backend's own number.
+    /// Largest number of iterations; by default the solver's own.
     pub max_iterations: Option<usize>,
 }
 
@@ -158,15 +125,8 @@ impl Default for MapOptions {
             surrogate: None,
             boundary: Boundary::default(),
             energy: None,
-            shape: Shape::default(),
-            positions: None,
-            boundary_lengths: None,
             pins: Vec::new(),
-            hold: None,
-            weights: None,
             valid: Valid::default(),
-            fix: 3,
-            keep_order: false,
             start: Start::default(),
             weight: Weight::default(),
             dual: "barycentre".to_owned(),
@@ -209,9 +169,9 @@ impl MapOptions {
     /// The energy that is minimised.
     pub fn expression(&self) -> Expression {
         self.energy.clone().unwrap_or_else(|| match self.boundary {
-            Boundary::Circle => Expression::of(&["H", "C"]),
-            Boundary::Free => Expression::of(&["H", "Lb"]),
-            Boundary::Fixed | Boundary::Periodic => Expression::of(&["H"]),
+            Boundary::Circle { .. } => Expression::of(&["H", "C"]),
+            Boundary::Free { .. } => Expression::of(&["H", "Lb"]),
+            Boundary::Fixed { .. } | Boundary::Periodic => Expression::of(&["H"]),
         })
     }
 
@@ -227,32 +187,65 @@ impl MapOptions {
         self.valid != Valid::Off
             && self.energy.is_none()
             && self.pins.is_empty()
-            && self.boundary_lengths.is_none()
-            && matches!(self.boundary, Boundary::Circle | Boundary::Free)
+            && matches!(self.boundary, Boundary::Circle { .. } | Boundary::Free { lengths: None, .. })
+    }
+
+    /// Number of boundary points that a circle map pins.
+    pub fn pinned_points(&self) -> PinnedPoints {
+        match self.boundary {
+            Boundary::Circle { pinned, .. } => pinned,
+            _ => PinnedPoints::default(),
+        }
+    }
+
+    /// Whether the boundary points of a circle map are kept in order.
+    pub fn is_ordered(&self) -> bool {
+        matches!(self.boundary, Boundary::Circle { ordered: true, .. })
+    }
+
+    /// The lengths that the boundary edges of a free map are to have.
+    pub fn boundary_lengths(&self) -> Option<&BoundaryLengths> {
+        match &self.boundary {
+            Boundary::Free { lengths, .. } => lengths.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The weights by which inner vertices are means of their neighbours.
+    pub fn weights(&self) -> Option<&str> {
+        match &self.boundary {
+            Boundary::Fixed { interior: Interior::Weights(name), .. } => Some(name),
+            _ => None,
+        }
     }
 
     /// Whether a fixed boundary is on the unit circle.
-    pub(super) fn fixed_on_circle(&self) -> bool {
-        self.positions.is_none() && self.shape == Shape::Circle
+    pub(super) fn is_fixed_on_circle(&self) -> bool {
+        matches!(self.boundary, Boundary::Fixed { on: Outline::Shape(Shape::Circle), .. })
     }
 
-    /// The vertices of `graph` that a fixed boundary and the pins hold, and where.
+    /// The vertices of `graph` that a fixed boundary and the pins hold, and where. Another boundary is taken for one that is fixed on the
+    /// unit circle.
     ///
     /// # Errors
     /// Vertices that are not in use; a shape that the boundary is too short for.
     pub fn fixed(&self, disc: &OrientedMesh, graph: &QuadGraph) -> Result<Fixed, MapError> {
-        let mut whole = match &self.positions {
-            None => on_shape(graph, self.shape)?,
-            Some(positions) => {
+        let (on, hold) = match &self.boundary {
+            Boundary::Fixed { on, hold, .. } => (on, *hold),
+            _ => (&Outline::Shape(Shape::Circle), None),
+        };
+        let mut whole = match on {
+            Outline::Shape(shape) => on_shape(graph, *shape)?,
+            Outline::Places(places) => {
                 let mut given = Fixed::default();
-                hold_pins(&mut given, disc, positions)?;
+                hold_pins(&mut given, disc, places)?;
                 given.hold_dual_boundary(graph);
                 given
             }
         };
         let orthogonal = graph.primal < graph.vertices && graph.is_orthogonal();
         let default = if orthogonal { Hold::Primal } else { Hold::Whole };
-        if self.hold.unwrap_or(default) == Hold::Primal {
+        if hold.unwrap_or(default) == Hold::Primal {
             whole.keep_one_dual(graph);
         }
         hold_pins(&mut whole, disc, &self.pins)?;
