@@ -17,7 +17,7 @@
 //! | `summary.rs`, `grid.rs`, `groups.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs`, `panels.rs` | exponents fitted to the series of plots; plots beside each other |
 //! | `convergence.rs` | iterations as records keep them; the plots that `[figures] convergence` asks for |
-//! | `map.rs`, `cotan.rs`, `normals.rs`, `peer.rs` | the kinds of experiment, rows of [`KINDS`] |
+//! | `map.rs`, `cotan.rs`, `normals.rs`, `peer.rs`, `theorem.rs` | the kinds of experiment, rows of [`KINDS`] |
 //! | `picture.rs`, `marks.rs`, `caption.rs` | maps → their pictures: flat, or as a checkerboard on the surface; red faces; captions |
 //! | `sheet.rs` | pictures of all runs → one figure, and its small copy |
 //! | `model.rs` | maps → the surface under its checkerboard, to be turned around in a viewer |
@@ -59,6 +59,7 @@ mod sheet;
 mod stale;
 mod summary;
 mod surface;
+mod theorem;
 mod without;
 
 use std::collections::BTreeMap;
@@ -146,5 +147,11 @@ pub struct Picture {
 }
 
 /// Every kind of experiment; the first is the default.
-pub static KINDS: &[&dyn Kind] =
-    &[&map::MapKind, &cotan::CotanKind, &normals::NormalsKind, &peer::PeerKind, &diagram::DiagramKind];
+pub static KINDS: &[&dyn Kind] = &[
+    &map::MapKind,
+    &cotan::CotanKind,
+    &normals::NormalsKind,
+    &peer::PeerKind,
+    &diagram::DiagramKind,
+    &theorem::TheoremKind,
+];

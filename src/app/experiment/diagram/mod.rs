@@ -4,6 +4,7 @@ mod cotan;
 mod dual_points;
 mod initial;
 mod surfel;
+mod two_circles;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -57,6 +58,7 @@ static DIAGRAMS: &[Row] = &[
     Row { name: "surfel", draw: surfel::draw },
     Row { name: "cotan", draw: cotan::draw },
     Row { name: "initial", draw: initial::draw },
+    Row { name: "two-circles", draw: two_circles::draw },
 ];
 
 /// A surface that a diagram cannot be made of.

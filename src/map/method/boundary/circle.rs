@@ -133,11 +133,11 @@ fn smallest_singular_value(setup: &Setup, laplacian: &ConformalLaplacian, found:
     let two: Vec<CirclePin>;
     let linearised = if setup.normalisation.points.len() == 2 {
         two = setup.normalisation.points.iter().map(|&(position, angle)| CirclePin { position, angle }).collect();
-        Linearised { pins: &two, with_epsilon: false }
+        Linearised { b: &found.b, w_0: found.w_0, pins: &two, with_epsilon: false }
     } else {
-        Linearised { pins: &found.pins, with_epsilon: true }
+        Linearised { b: &found.b, w_0: found.w_0, pins: &found.pins, with_epsilon: true }
     };
-    singular_values(laplacian, &setup.domain.graph, found, linearised).last().copied()
+    singular_values(laplacian, &setup.domain.graph, linearised).last().copied()
 }
 
 /// Boundary positions that are held, ascending, with their angles; `None` if a vertex inside is held.

@@ -5,34 +5,34 @@ use std::f64::consts::SQRT_2;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use super::{CirclePin, Step, System, TwoCircleMap};
+use super::{CirclePin, Step, System};
 use crate::laplacian::ConformalLaplacian;
 use crate::quad_graph::QuadGraph;
 
-/// Which unknowns and equations are linearised.
+/// Where the equations of the two circles are linearised, and which of them with which unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linearised<'a> {
+    /// The black boundary values (n).
+    pub b: &'a [Complex64],
+    /// The mean of the white ones.
+    pub w_0: Complex64,
     /// The pinned points, each one equation.
     pub pins: &'a [CirclePin],
     /// Whether ε is an unknown.
     pub with_epsilon: bool,
 }
 
-/// The singular values (descending) of the equations of the two circles at a map, in norms that do not depend on the mesh: b and
-/// the residuals of the circles count as mean squares, w_0, ε and the residuals at the pins as they are.
+/// The singular values (descending) of the linearised equations, in norms of the smooth limit: b and
+/// the residuals of the circles count as mean squares, w_0, ε and the residuals at the pins as they are. Mean squares do not bound
+/// the point values at the pins: the smallest singular values fall as √h even where the smooth problem is well posed.
 ///
 /// Takes n products with T and a dense decomposition of order 2n: for small meshes.
-pub fn singular_values(
-    laplacian: &ConformalLaplacian,
-    graph: &QuadGraph,
-    map: &TwoCircleMap,
-    linearised: Linearised<'_>,
-) -> Vec<f64> {
+pub fn singular_values(laplacian: &ConformalLaplacian, graph: &QuadGraph, linearised: Linearised<'_>) -> Vec<f64> {
     let n = laplacian.len();
     let system = System::at(laplacian, graph, linearised.pins);
     let mut work = laplacian.work();
-    let mut z = vec![map.w_0; 2 * n];
-    map.b.iter().enumerate().for_each(|(k, &b)| z[2 * k] = b);
+    let mut z = vec![linearised.w_0; 2 * n];
+    linearised.b.iter().enumerate().for_each(|(k, &b)| z[2 * k] = b);
     system.complete(&mut z, &mut work);
 
     let mean = 1.0 / (2.0 * n as f64).sqrt();
