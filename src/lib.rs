@@ -16,32 +16,28 @@
 //! Data flows one way, and nothing imports what comes after it:
 //!
 //! ```text
-//! surface → quad graph → energies + constraints → problem → backend → map → distortion → report → figure
+//! surface → quad graph → conformal Laplacian, energies, constraints → problem → solver → map → distortion → report → figure
 //! ```
 //!
-//! | module | what it holds |
+//! | module | contents |
 //! |---|---|
-//! | [`surface`] | positions and polygons; [`Diagnosis`](surface::diagnosis::Diagnosis): what it is and what is wrong; [`OrientedMesh`](surface::disc::OrientedMesh) and how a surface is [cut](surface::cut) to one; [`digital`](surface::digital): voxels, their boundaries; estimated [`normals`](surface::normals); generated surfaces |
+//! | [`surface`] | positions and polygons; the [diagnosis](surface::topology::diagnosis) of a surface; [`OrientedMesh`](surface::oriented_mesh::OrientedMesh) and how a surface is [cut](surface::cut) to a disc; [`digital`](surface::digital): voxels and their boundaries; estimated [`normals`](surface::normals); generated surfaces |
 //! | [`quad_graph`] | quads, ρ, boundary; rest lengths and areas; dual points |
+//! | [`laplacian`] | the conformal Laplacian: one complex symmetric matrix on half of the vertices, whose solutions are the maps with H = 0 |
 //! | [`energy`] | H, C, A, L, L', MIPS, SD with all derivatives; `H + 0.5 L` as an expression |
-//! | [`constraint`] | held vertices, shapes of the boundary, gauges; elimination x = Z y + x0 |
-//! | [`problem`], [`objective`] | the linear problem; the nonlinear one |
-//! | [`solver`] | direct solvers and minimisers by name |
-//! | [`periodic`] | maps of closed surfaces of genus 1: periods, their ratio, textures without seams |
-//! | [`map`] | all of it in one call |
-//! | [`distortion`], [`report`], [`figure`] | how good a map is, its record, its picture |
+//! | [`constraint`] | pinned vertices, shapes of the boundary, gauges; elimination x = Z y + x0 |
+//! | [`problem`] | the linear problem; the nonlinear one |
+//! | [`solver`] | direct solvers, minimisers, and Newton's method on the boundary values |
+//! | [`map`] | all of it in one call; maps of closed surfaces of genus 1 in [`periodic`](map::periodic) |
+//! | [`distortion`], [`report`], `figure` | how good a map is, its record, its picture |
 //! | [`io`], [`input`] | mesh files, volumes; surfaces by file or name |
-//! | [`verify`], [`libigl`] | the cotan equivalence, checked against libigl itself |
-//! | [`peer`] | maps of other programs, measured as ours are |
-//! | [`bench`](mod@app::bench) | speed against other programs |
-//! | [`experiment`] | configurations, runs, tables, plots |
-//! | [`predicate`], [`polygon`], [`moebius`], [`median`](mod@app::measure::median), [`process`] | exact signs of areas; whether a polygon is simple; maps of the disc to itself; the middle of numbers; processes with a time limit |
-//! | [`sparse`], [`interop`] | patterns and Cholesky factors; nalgebra-sparse seen by faer |
+//! | `app` | the command line, experiments, comparisons with libigl, benchmarks (feature `cli`) |
+//! | [`geometry`], [`sparse`] | exact predicates, polygons, Möbius maps; patterns and factors of sparse matrices |
 //!
 //! # One map
 //!
 //! ```
-//! use riemap::{backend::Silent, input::Input, map};
+//! use riemap::{input::Input, map, solver::Silent};
 //!
 //! let input = Input::open("sphere?n=16&mesh=delaunay")?;
 //! let mapped = map::run(&input, &map::MapOptions::default(), &mut Silent)?;
@@ -55,16 +51,16 @@
 //! | equation | function |
 //! |---|---|
 //! | (1) `ρ = (c − ip)/‖d02‖²` | [`quad_graph::rho::extrinsic`], [`quad_graph::rho::with_normal`] |
-//! | (2) as a matrix | [`problem::system`]; one row: [`energy::conformal::row`] |
+//! | (2) as a matrix | [`problem::linear::system`]; one row: [`energy::conformal::row`] |
 //! | ρ of a surfel, `(2 n3 − i(n1² − n2²))/(2 − (n1 + n2)²)` | [`quad_graph::rho::with_normal`] on [`quad_graph::TangentPlanes`] |
 //! | §2.3 ρ of triangle meshes, `½(cot α + cot β)` | [`quad_graph::QuadGraph::from_triangles`], [`quad_graph::dual`] |
 //! | H, and ∂H/∂z̄ = Aᴴ W A z | [`energy::conformal::value`], [`energy::conformal::normal_product`] |
 //! | C | [`energy::Circle`] |
 //! | A | [`energy::Authalic`] |
 //! | L, L' | [`energy::Metric`] |
-//! | αH + βC + δA + γL + γ'L' | [`energy::Expression`], [`objective::Objective`] |
+//! | αH + βC + δA + γL + γ'L' | [`energy::Expression`], [`problem::nonlinear::Objective`] |
 //! | §3.2 boundary on a circle by arc length | [`constraint::on_circle`] |
-//! | §3.3 what must be held | [`constraint::hold_gauge`], [`constraint::spread_points`] |
+//! | §3.3 the vertices that must be pinned | [`constraint::hold_gauge`], [`constraint::spread_points`] |
 //!
 //! The printed H has no i before ρ, A's first term lost a conjugate, and the cotangents a factor ½; here they are as they
 //! must be.

@@ -132,7 +132,7 @@ fn what_periodic_maps_do_not_have_is_refused() {
     for (arguments, words) in [
         (&["torus", "--cut"][..], &["--cut"][..]),
         (&["torus", "--energy", "H + L"], &["H + L"]),
-        (&["torus", "--pin", "0=0,0"], &["pins"]),
+        (&["torus", "--pin", "0=0,0"], &["--pin"]),
         (&["torus", "--solver", "lu"], &["lu"]),
         (&["torus", "--keep-order"], &["--keep-order"]),
         (&["torus", "--trace", "s.csv"], &["--trace", "leave it out"]),

@@ -141,7 +141,6 @@ fn options_that_change_nothing_are_noted() {
     for (options, words) in [
         (&["--boundary", "free", "--energy", "H + C"][..], "--boundary free has no effect"),
         (&["--boundary", "circle", "--energy", "H + L"], "--boundary circle has no effect"),
-        (&["--boundary", "free", "--fix", "2"], "--fix has no effect"),
         (&["--boundary", "fixed", "--tolerance", "0.1"], "--tolerance has no effect"),
         (&["--dual", "incentre"], "--dual has no effect"),
     ] {
@@ -204,11 +203,12 @@ fn contradictions_are_refused_with_what_would_do() {
         (&["--boundary", "free", "--energy", "H"], &["--boundary fixed"]),
         (&["--solver", "lu"], &["`lu`", "levenberg-marquardt"]),
         (&["--boundary", "fixed", "--solver", "lbfgs"], &["lbfgs"]),
-        (&["--boundary", "free", "--keep-order"], &["--keep-order", "C"]),
+        (&["--boundary", "free", "--keep-order"], &["--keep-order", "--boundary circle"]),
         (&["--pin", "0=1,0", "--pin", "4=-1,0", "--pin", "24=0,1", "--pin", "20=0,-1"], &["out of order"]),
         (&["--pin", "25=1,0"], &["vertex 25"]),
         (&["--pin", "0=3,0"], &["vertex 0", "at distance 3"]),
         (&["--pin", "12=1,0"], &["vertex 12", "not on the boundary"]),
+        (&["--boundary", "free", "--fix", "2"], &["--fix", "--boundary circle"]),
         (&["--shape", "square"], &["--boundary fixed"]),
         (&["--energy", "Lb"], &["undetermined"]),
         (&["--energy", "0 H"], &["undetermined"]),
