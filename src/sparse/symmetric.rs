@@ -323,13 +323,13 @@ mod tests {
     fn matrix<T: Entry>(n: usize, seed: u64, entry: impl Fn(f64, f64) -> T) -> (Columns, Vec<T>, Vec<Vec<T>>) {
         let mut numbers = Numbers(seed);
         let mut full = vec![vec![T::ZERO; n]; n];
-        for i in 0..n {
+        (0..n).for_each(|i| {
             full[i][i] = entry(6.0 + numbers.next(), 3.0 * numbers.next());
             for j in [i / 2, i / 3, i.saturating_sub(1)].into_iter().filter(|&j| j < i) {
                 let value = entry(0.5 * numbers.next(), numbers.next());
                 (full[i][j], full[j][i]) = (value, value);
             }
-        }
+        });
         let entries = (0..n).flat_map(|j| (j..n).map(move |i| (i, j)));
         let used: Vec<(usize, usize)> = entries.filter(|&(i, j)| i == j || full[i][j].is_pivot()).collect();
         let lists = Lists::new(n, used.iter().map(|&(i, j)| (j as u32, i as u32)));

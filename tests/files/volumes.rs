@@ -176,7 +176,9 @@ fn raw_files_need_their_size_and_may_have_two_bytes() {
     let words = bytes_of(&scan(), |v| (v as u16).to_le_bytes());
     is_the_box(&folder.read("raw", &bytes, sized).expect("bytes"), 0.0, "bytes");
     is_the_box(&folder.read("raw", &words, wide).expect("words"), 0.0, "words");
-    assert!(folder.message("raw", &bytes, VolumeOptions::default()).contains("size"));
+    assert!(
+        folder.message("raw", &bytes, VolumeOptions::default()).contains("number of values along x, y, z is not given")
+    );
     let wrong = folder.message("raw", &bytes, wide);
     assert!(wrong.contains("3 × 4 × 5 values of 2 byte(s) do not make the 60 bytes"), "{wrong}");
     let none = VolumeOptions { size: Some([0, 4, 5]), ..sized };
