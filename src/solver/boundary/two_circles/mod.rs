@@ -117,7 +117,7 @@ pub fn two_circle_map(
 ) -> Result<TwoCircleMap, TwoCirclesError> {
     let mut work = laplacian.work();
     let system = System::new(laplacian, graph, pins)?;
-    let theta = start_angles(laplacian, graph, &system.anchors, &mut work);
+    let theta = start_angles(laplacian, graph, &system.boundary_index, &system.anchors, &mut work);
     let mut newton =
         Newton { system, work, iterations: 0, products: 0, has_dual_points: graph.primal < graph.vertices };
     let mut state = newton.start(&theta);

@@ -11,10 +11,12 @@ use crate::solver::boundary::angles::{Anchor, is_ascending, moebius, through_anc
 const SMALLEST_GAP: f64 = 1e-9;
 
 /// Ascending angles (2n, black and white points in turn) that take the anchors' values: those of the Green's function of a black
-/// vertex far inside, whose flux is the harmonic measure, moved by a Möbius map; else those of arc length.
+/// vertex far inside, whose flux is the harmonic measure, moved by a Möbius map; else those of arc length. `order` has the position of
+/// each point in [`QuadGraph::boundary`].
 pub(super) fn start_angles(
     laplacian: &ConformalLaplacian,
     graph: &QuadGraph,
+    order: &[u32],
     anchors: &[Anchor],
     work: &mut Work,
 ) -> Vec<f64> {
@@ -22,11 +24,7 @@ pub(super) fn start_angles(
         let theta = through_anchors(&moebius(&green, anchors)?, TAU, anchors);
         is_ascending(&theta).then_some(theta)
     });
-    from_green.unwrap_or_else(|| {
-        let pairs = laplacian.black_index().iter().zip(laplacian.white_index());
-        let order: Vec<u32> = pairs.flat_map(|(&black, &white)| [black, white]).collect();
-        by_arc_length(graph, &order, anchors)
-    })
+    from_green.unwrap_or_else(|| by_arc_length(graph, order, anchors))
 }
 
 /// Angles from the flux of the Green's function, half a black vertex's flux on either side of it.
