@@ -32,19 +32,26 @@
 //! | [`distortion`], [`report`], `figure` | how good a map is, its record, its picture |
 //! | [`io`], [`input`] | mesh files, volumes; surfaces by file or name |
 //! | `app` | the command line, experiments, comparisons with libigl, benchmarks (feature `cli`) |
-//! | [`geometry`], [`sparse`] | exact predicates, polygons, Möbius maps; patterns and factors of sparse matrices |
+//! | `geometry`, `sparse` | exact predicates, polygons, Möbius maps; patterns and factors of sparse matrices |
 //!
 //! # One map
 //!
 //! ```
-//! use riemap::{input::Input, map, solver::Silent};
+//! use riemap::{Boundary, MapOptions};
 //!
-//! let input = Input::open("sphere?n=16&mesh=delaunay")?;
-//! let mapped = map::run(&input, &map::MapOptions::default(), &mut Silent)?;
-//! // Three boundary points are where the exact conformal map has them; the others find their places.
-//! assert_eq!(mapped.distortion.flipped, 0);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! // Four triangles around a vertex that is lifted out of the plane.
+//! let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.4, 0.5, 0.3]];
+//! let faces = [vec![0, 1, 4], vec![1, 2, 4], vec![2, 3, 4], vec![3, 0, 4]];
+//!
+//! let options = MapOptions { boundary: Boundary::FREE, ..MapOptions::default() };
+//! let mapped = riemap::map(&positions, &faces, &options)?;
+//! assert!(mapped.validity.is_one_to_one());
+//! let uv = mapped.uv(); // one pair for each vertex
+//! # assert!(uv.iter().all(Option::is_some));
+//! # Ok::<(), riemap::MapError>(())
 //! ```
+//!
+//! [`map_surface`] takes a checked [`Surface`], [`map_input`] an [`Input`]: a file, a volume or a generated surface.
 //!
 //! # The paper's equations
 //!
@@ -72,7 +79,7 @@ pub mod distortion;
 pub mod energy;
 #[cfg(feature = "figure")]
 pub mod figure;
-pub mod geometry;
+pub(crate) mod geometry;
 pub mod input;
 pub mod io;
 pub mod laplacian;
@@ -81,5 +88,19 @@ pub mod problem;
 pub mod quad_graph;
 pub mod report;
 pub mod solver;
+#[doc(hidden)]
 pub mod sparse;
 pub mod surface;
+
+pub use num_complex;
+
+pub use energy::{ENERGIES, Energy, Expression};
+pub use input::{Input, InputError};
+pub use map::{
+    Boundary, Map, MapError, MapOptions, Mapped, Pin, PinnedPoints, TextureCoordinates, Tiling, Valid, map, map_input,
+    map_surface,
+};
+pub use quad_graph::dual::{DUAL_POINTS, DualPoint};
+pub use report::Report;
+pub use solver::{LINEAR_SOLVERS, LinearSolver, MINIMISERS, Minimiser, Observer, Silent};
+pub use surface::{Surface, SurfaceError};

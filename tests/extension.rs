@@ -9,7 +9,7 @@ use riemap::energy::conformal::{self, Weight};
 use riemap::problem::linear::LinearProblem;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint};
-use riemap::solver::{LinearBackend, Observer, Phase, Silent, SolveError, Unsuitable, solve_linear};
+use riemap::solver::{LinearSolver, Observer, Phase, Silent, SolveError, Unsuitable, solve_linear};
 use riemap::surface::generate::{Form, Immersion, Parameter, Row, generate_from};
 
 /// The symmedian point: barycentric weights a², b², c². Inside every triangle.
@@ -32,7 +32,7 @@ impl DualPoint for Symmedian {
 /// The normal equations by Gauss–Seidel with over-relaxation: each vertex in turn at the minimum of H.
 struct Relaxation;
 
-impl LinearBackend for Relaxation {
+impl LinearSolver for Relaxation {
     fn name(&self) -> &'static str {
         "relaxation"
     }
@@ -119,7 +119,7 @@ fn a_new_backend_sees_all_it_needs_and_agrees_with_the_others() {
         for weight in [Weight::Integral, Weight::Unit] {
             let fixed = on_shape(graph, Shape::Circle).expect("a boundary");
             let problem = LinearProblem::new(graph, weight, &fixed).expect("whole boundary");
-            let own: &dyn LinearBackend = &Relaxation;
+            let own: &dyn LinearSolver = &Relaxation;
             assert_eq!(own.suits(&problem), Ok(()));
             let z = own.solve(&problem, &mut Silent).unwrap_or_else(|error| panic!("{error}"));
             let other = solve_linear(&problem, "qr", &mut Silent).expect("solvable").z;

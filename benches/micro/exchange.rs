@@ -31,7 +31,7 @@ fn write_ply(bencher: Bencher, mesh: Mesh) {
 fn write_as(bencher: Bencher, mesh: Mesh, extension: &str) {
     let bytes = written(mesh, extension).len();
     let surface = mesh.input().surface;
-    let uv = texture(&surface.positions);
+    let uv = texture(surface.positions());
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(format!("mesh.{extension}"));
     bencher.counter(BytesCount::new(bytes)).bench_local(|| write(&path, &surface, None, Some(Uv::PerVertex(&uv))));
@@ -41,7 +41,7 @@ fn written(mesh: Mesh, extension: &str) -> Vec<u8> {
     let surface = mesh.input().surface;
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(format!("mesh.{extension}"));
-    write(&path, &surface, None, Some(Uv::PerVertex(&texture(&surface.positions)))).expect("it can be written");
+    write(&path, &surface, None, Some(Uv::PerVertex(&texture(surface.positions())))).expect("it can be written");
     std::fs::read(path).expect("it can be read")
 }
 

@@ -7,7 +7,7 @@ use riemap::constraint::{Fixed, Freedoms};
 use riemap::energy::conformal::{Dirichlet, Weight};
 use riemap::energy::{Rest, energy};
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, Mapped, run};
+use riemap::map::{Boundary, MapOptions, Mapped, map_input};
 use riemap::problem::nonlinear::Objective;
 use riemap::quad_graph::metric::RestMetric;
 use riemap::solver::Silent;
@@ -41,7 +41,7 @@ impl Mesh {
     /// Its free map, which is near an isometry.
     pub fn mapped(self) -> Mapped {
         let options = MapOptions { boundary: Boundary::FREE, ..MapOptions::default() };
-        run(&self.input(), &options, &mut Silent).expect("a graph over a square has a free map")
+        map_input(&self.input(), &options, &mut Silent).expect("a graph over a square has a free map")
     }
 }
 

@@ -8,12 +8,16 @@ use crate::quad_graph::QuadGraphError;
 use crate::solver::boundary::BoundaryError;
 use crate::solver::convex::ConvexError;
 use crate::solver::{MinimiseError, SolveError, Unsuitable};
+use crate::surface::SurfaceError;
 use crate::surface::cut::CutError;
 use crate::surface::normals::NormalError;
 
 /// The request cannot be met.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MapError {
+    /// Arrays that are not a surface.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
     /// Options that contradict each other.
     #[error(transparent)]
     Options(#[from] OptionsError),

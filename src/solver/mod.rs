@@ -7,7 +7,7 @@ pub mod minimise;
 mod observer;
 
 pub use linear::{
-    LINEAR_BACKENDS, LinearBackend, LinearSolution, SolveError, Unsuitable, automatic, linear_backend, solve_linear,
+    LINEAR_SOLVERS, LinearSolution, LinearSolver, SolveError, Unsuitable, automatic, linear_solver, solve_linear,
     solve_with,
 };
 pub use minimise::{MINIMISERS, MinimiseError, Minimiser, Minimum, Status, StopRule, minimiser};
@@ -15,7 +15,7 @@ pub use observer::{Iteration, Observer, Phase, Silent};
 
 /// What `--solver` takes: `auto`, and all backends by name.
 pub fn solver_names() -> Vec<&'static str> {
-    let direct = LINEAR_BACKENDS.iter().map(|b| b.name());
+    let direct = LINEAR_SOLVERS.iter().map(|b| b.name());
     let iterative = MINIMISERS.iter().map(|m| m.name());
     ["auto", boundary::NAME].into_iter().chain(direct).chain(iterative).collect()
 }

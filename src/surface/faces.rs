@@ -31,7 +31,7 @@ impl Faces {
 
     /// The same faces with their neighbours stated: for each corner the one whose directed edge is the same edge of the
     /// other face, or [`Faces::NO_TWIN`].
-    pub fn with_twins(self, twins: Vec<u32>) -> Self {
+    pub(crate) fn with_twins(self, twins: Vec<u32>) -> Self {
         Faces { twins: Some(twins), ..self }
     }
 

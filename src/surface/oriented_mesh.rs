@@ -84,6 +84,15 @@ impl OrientedMesh {
         })
     }
 
+    /// The mesh as a surface of its own, filled holes included.
+    pub fn to_surface(&self) -> Surface {
+        Surface {
+            positions: self.positions.clone(),
+            faces: self.faces.clone(),
+            face_normals: self.face_normals.clone(),
+        }
+    }
+
     /// Number of faces that the source has too; they come first.
     pub fn source_faces(&self) -> usize {
         self.faces.len() - self.filled

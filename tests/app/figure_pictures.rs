@@ -66,7 +66,7 @@ fn flat_faces_are_red_where_their_error_is_beyond_the_mark_and_grey_elsewhere() 
 #[test]
 fn corner_errors_of_an_affine_map_are_its_own_and_see_angles_that_diagonals_do_not() {
     let input = Input::open("plane?n=3").unwrap();
-    let mapped = map::run(&input, &MapOptions::default(), &mut Stopwatch::start()).unwrap();
+    let mapped = map::map_input(&input, &MapOptions::default(), &mut Stopwatch::start()).unwrap();
     let (disc, graph) = (&mapped.domain.disc, &mapped.domain.graph);
     let errors = |f: &dyn Fn([f64; 3]) -> [f64; 2]| {
         let place = |p: &[f64; 3]| {

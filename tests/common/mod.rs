@@ -98,7 +98,7 @@ pub fn rotate(rows: [[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
 
 /// A surface with these vertices and faces.
 pub fn surface<P: AsRef<[u32]>>(positions: Vec<[f64; 3]>, faces: impl IntoIterator<Item = P>) -> Surface {
-    Surface { positions, faces: faces.into_iter().collect(), face_normals: None }
+    Surface::from_polygons(positions, faces).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// `vertices` points in general position: no two coincide, no three are collinear (with certainty enough).
@@ -136,8 +136,8 @@ pub fn quad_grid(columns: u32, rows: u32, sides: Sides) -> Surface {
 
 /// Every quad split along its first diagonal.
 pub fn triangulated(quads: &Surface) -> Surface {
-    let faces = quads.faces.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]);
-    surface(quads.positions.clone(), faces)
+    let faces = quads.faces().iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]);
+    surface(quads.positions().to_vec(), faces)
 }
 
 /// The cube's surface, six quads seen from outside.
@@ -155,47 +155,49 @@ pub fn octahedron() -> Surface {
 
 /// Both surfaces side by side.
 pub fn union(a: &Surface, b: &Surface) -> Surface {
-    let shift = a.positions.len() as u32;
-    let moved = b.positions.iter().map(|&[x, y, z]| [x + 10.0, y, z]);
-    let faces = a.faces.iter().map(<[u32]>::to_vec);
-    let faces = faces.chain(b.faces.iter().map(|f| f.iter().map(|v| v + shift).collect()));
-    surface(a.positions.iter().copied().chain(moved).collect(), faces)
+    let shift = a.positions().len() as u32;
+    let moved = b.positions().iter().map(|&[x, y, z]| [x + 10.0, y, z]);
+    let faces = a.faces().iter().map(<[u32]>::to_vec);
+    let faces = faces.chain(b.faces().iter().map(|f| f.iter().map(|v| v + shift).collect()));
+    surface(a.positions().iter().copied().chain(moved).collect(), faces)
 }
 
 /// The connected sum: face `in_a` and face `in_b` removed, their rims sewn together. Leaves the rim of `in_b` unused.
 pub fn connected_sum(a: &Surface, in_a: usize, b: &Surface, in_b: usize) -> Surface {
     let both = union(a, b);
-    let rim_a = both.faces.get(in_a).to_vec();
-    let in_b = a.faces.len() + in_b;
-    let rim_b = both.faces.get(in_b).to_vec();
+    let rim_a = both.faces().get(in_a).to_vec();
+    let in_b = a.faces().len() + in_b;
+    let rim_b = both.faces().get(in_b).to_vec();
     let n = rim_a.len();
     assert_eq!(n, rim_b.len());
     let sewn = |v: u32| rim_b.iter().position(|&w| w == v).map_or(v, |k| rim_a[(n - k) % n]);
-    let kept = both.faces.iter().enumerate().filter(|(f, _)| *f != in_a && *f != in_b);
-    surface(both.positions.clone(), kept.map(|(_, f)| f.iter().map(|&v| sewn(v)).collect::<Vec<_>>()))
+    let kept = both.faces().iter().enumerate().filter(|(f, _)| *f != in_a && *f != in_b);
+    surface(both.positions().to_vec(), kept.map(|(_, f)| f.iter().map(|&v| sewn(v)).collect::<Vec<_>>()))
 }
 
 /// The faces for which `keep` holds; vertices stay.
 pub fn filtered(s: &Surface, keep: impl Fn(usize) -> bool) -> Surface {
-    surface(s.positions.clone(), s.faces.iter().enumerate().filter(|(f, _)| keep(*f)).map(|(_, f)| f))
+    surface(s.positions().to_vec(), s.faces().iter().enumerate().filter(|(f, _)| keep(*f)).map(|(_, f)| f))
 }
 
 /// The faces of `which` turned over.
 pub fn flipped(s: &Surface, which: impl IntoIterator<Item = usize>) -> Surface {
-    let mut s = s.clone();
-    for f in which {
-        s.faces.flip(f);
+    let mut faces = s.faces().clone();
+    which.into_iter().for_each(|f| faces.flip(f));
+    let turned = surface(s.positions().to_vec(), faces.iter());
+    match s.face_normals() {
+        Some(normals) => turned.with_face_normals(normals.to_vec()).expect("one for each face"),
+        None => turned,
     }
-    s
 }
 
 /// The same surface with faces in the order `order` and vertex v called `name[v]`.
 pub fn shuffled(s: &Surface, order: &[u32], name: &[u32]) -> Surface {
-    let mut positions = s.positions.clone();
+    let mut positions = s.positions().to_vec();
     for (v, &new) in name.iter().enumerate() {
-        positions[new as usize] = s.positions[v];
+        positions[new as usize] = s.positions()[v];
     }
-    let named = s.faces.renumbered(name);
+    let named = s.faces().renumbered(name);
     surface(positions, order.iter().map(|&f| named.get(f as usize)))
 }
 
@@ -233,7 +235,7 @@ pub fn grown_disc(arity: usize, steps: usize, random: &mut Random) -> Surface {
         rim.splice(1..on, new);
     }
     let positions = (0..vertices).map(|_| random.vector()).collect();
-    Surface { positions, faces, face_normals: None }
+    surface(positions, faces.iter())
 }
 
 /// The disc that `s` is.

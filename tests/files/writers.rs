@@ -95,27 +95,25 @@ fn meshes() -> impl Strategy<Value = (Surface, Vec<[f64; 2]>)> {
         let faces = proptest::collection::vec(polygon, 1..12);
         let positions = proptest::collection::vec([finite(), finite(), finite()], n);
         let uv = proptest::collection::vec([finite(), finite()], n);
-        (positions, faces, uv).prop_map(|(positions, faces, uv)| {
-            (Surface { positions, faces: faces.into_iter().collect(), face_normals: None }, uv)
-        })
+        (positions, faces, uv).prop_map(|(positions, faces, uv)| (crate::common::surface(positions, faces), uv))
     })
 }
 
 fn bits(surface: &Surface) -> Vec<[u64; 3]> {
-    surface.positions.iter().map(|p| p.map(f64::to_bits)).collect()
+    surface.positions().iter().map(|p| p.map(f64::to_bits)).collect()
 }
 
 proptest! {
     #[test]
     fn what_is_written_reads_back_bit_for_bit((surface, uv) in meshes()) {
         let folder = tempfile::tempdir().unwrap();
-        let corners = surface.faces.corners();
+        let corners = surface.faces().corners();
         for uv in [None, Some(Uv::PerVertex(&uv)), Some(Uv::PerCorner { coordinates: &uv, corners })] {
             for name in ["a.obj", "a.ply"] {
                 let path = folder.path().join(name);
                 io::write(&path, &surface, None, uv).unwrap();
                 let back = io::read(&path).unwrap();
-                prop_assert_eq!(&back.surface.faces, &surface.faces);
+                prop_assert_eq!(&back.surface.faces(), &surface.faces());
                 prop_assert_eq!(bits(&back.surface), bits(&surface));
                 if let Some(text) = &back.vertex_text {
                     io::write(&path, &back.surface, Some(text), uv).unwrap();
@@ -132,26 +130,26 @@ proptest! {
 
     #[test]
     fn text_off_ply_and_stl_keep_every_bit((surface, _) in meshes()) {
-        let faces: String = surface.faces.iter().map(|p| format!("{} {}\n", p.len(),
+        let faces: String = surface.faces().iter().map(|p| format!("{} {}\n", p.len(),
             p.iter().map(u32::to_string).collect::<Vec<_>>().join(" "))).collect();
-        let vertices: String = surface.positions.iter().map(|[x, y, z]| format!("{x:?} {y:e} {z}\n")).collect();
-        let (nv, nf) = (surface.positions.len(), surface.faces.len());
+        let vertices: String = surface.positions().iter().map(|[x, y, z]| format!("{x:?} {y:e} {z}\n")).collect();
+        let (nv, nf) = (surface.positions().len(), surface.faces().len());
         let off = good(Format::Off, format!("OFF\n{nv} {nf} 0\n{vertices}{faces}"));
         let header = SQUARE_PLY.split_inclusive("end_header\n").next().unwrap();
         let header = header.replace("vertex 4", &format!("vertex {nv}")).replace("face 2", &format!("face {nf}"));
         let ply = good(Format::Ply, format!("{header}{vertices}{faces}"));
         for mesh in [off, ply] {
-            prop_assert_eq!(&mesh.surface.faces, &surface.faces);
+            prop_assert_eq!(&mesh.surface.faces(), &surface.faces());
             prop_assert_eq!(bits(&mesh.surface), bits(&surface));
         }
-        let facets: String = surface.faces.iter().map(|p| {
-            let v = |i: usize| surface.positions[p[i] as usize].map(|x| format!("{x:?}")).join(" ");
+        let facets: String = surface.faces().iter().map(|p| {
+            let v = |i: usize| surface.positions()[p[i] as usize].map(|x| format!("{x:?}")).join(" ");
             format!("facet normal 0 0 0 outer loop vertex {} vertex {} vertex {} endloop endfacet\n", v(0), v(1), v(2))
         }).collect();
         let stl = good(Format::Stl, format!("solid\n{facets}endsolid")).surface;
-        for (welded, polygon) in stl.faces.iter().zip(surface.faces.iter()) {
+        for (welded, polygon) in stl.faces().iter().zip(surface.faces().iter()) {
             for (&a, &b) in welded.iter().zip(polygon) {
-                prop_assert_eq!(stl.positions[a as usize], surface.positions[b as usize]);
+                prop_assert_eq!(stl.positions()[a as usize], surface.positions()[b as usize]);
             }
         }
     }

@@ -50,7 +50,7 @@ fn cotan_map_equals_libigl_on_public_meshes() {
         let source = path.to_string_lossy();
         let Ok(input) = Input::open(&source) else { continue };
         let disc = Diagnosis::new(&input.surface).fatal().next().is_none();
-        if !disc || input.surface.faces.arity() != Some(3) {
+        if !disc || input.surface.faces().arity() != Some(3) {
             continue;
         }
         let row = comparison(&source, &libigl);

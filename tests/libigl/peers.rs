@@ -4,7 +4,7 @@ use riemap::app::compare::libigl::{Environment, LibiglError, lscm};
 use riemap::app::compare::peer::{PeerError, peer};
 use riemap::constraint::Shape;
 use riemap::input::Input;
-use riemap::map::{Boundary, Interior, MapOptions, Mapped, Outline, Valid, run};
+use riemap::map::{Boundary, Interior, MapOptions, Mapped, Outline, Valid, map_input};
 use riemap::solver::Silent;
 use riemap::surface::cut::Opening;
 
@@ -35,7 +35,7 @@ fn the_harmonic_map_is_ours_with_circumcentres() {
     let source = "catenoid?n=12&mesh=delaunay&seed=5";
     let theirs = map("libigl-harmonic", source);
     let options = MapOptions { boundary: Boundary::FIXED, dual: "circumcentre".to_owned(), ..MapOptions::default() };
-    let ours = run(&Input::open(source).unwrap(), &options, &mut Silent).unwrap();
+    let ours = map_input(&Input::open(source).unwrap(), &options, &mut Silent).unwrap();
     let primal = ours.domain.graph.primal;
     let farthest = (0..primal).map(|v| (ours.map.z[v] - theirs.map.z[v]).norm()).fold(0.0, f64::max);
     // As in the cotan equivalence.
@@ -51,7 +51,7 @@ fn a_peer_maps_the_same_disc_that_is_cut_out_of_a_closed_surface() {
     let source = "torus?R=2&r=0.8&n=12&mesh=triangle";
     let theirs = map_opened("libigl-harmonic", source, Opening { cut: true, ..Opening::default() });
     let options = MapOptions { boundary: cotan(), cut: true, valid: Valid::Off, ..MapOptions::default() };
-    let ours = run(&Input::open(source).unwrap(), &options, &mut Silent).unwrap();
+    let ours = map_input(&Input::open(source).unwrap(), &options, &mut Silent).unwrap();
     let primal = ours.domain.graph.primal;
     let farthest = (0..primal).map(|v| (ours.map.z[v] - theirs.map.z[v]).norm()).fold(0.0, f64::max);
     // As in the cotan equivalence.

@@ -4,7 +4,8 @@ use num_complex::Complex64;
 use riemap::input::Input;
 use riemap::io::{BoundaryLengths, LengthUnit, PerEdge, read_boundary_lengths};
 use riemap::map::{
-    Boundary, BoundaryName, FlatOptions, LengthsError, LengthsRecord, MapError, MapOptions, Mapped, OptionsError, run,
+    Boundary, BoundaryName, FlatOptions, LengthsError, LengthsRecord, MapError, MapOptions, Mapped, OptionsError,
+    map_input,
 };
 use riemap::solver::Silent;
 
@@ -13,7 +14,7 @@ fn free(lengths: Option<BoundaryLengths>) -> MapOptions {
 }
 
 fn map(input: &Input, options: &MapOptions) -> Mapped {
-    run(input, options, &mut Silent).unwrap_or_else(|error| panic!("{error}"))
+    map_input(input, options, &mut Silent).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn lengths(values: Vec<f64>) -> Option<BoundaryLengths> {
@@ -139,7 +140,7 @@ fn edges_may_be_named_in_any_order() {
     named.pop();
     let refused = |values: PerEdge| {
         let asked = Some(BoundaryLengths { unit: LengthUnit::Lengths, values });
-        match run(&input, &free(asked), &mut Silent) {
+        match map_input(&input, &free(asked), &mut Silent) {
             Err(MapError::Lengths(error)) => error,
             other => panic!("{:?}", other.map(|mapped| mapped.map.provenance.to_string())),
         }
@@ -164,7 +165,7 @@ fn maps_that_keep_no_lengths_refuse_them() {
         assert!(matches!(refusal, OptionsError::OtherBoundary { key: "boundary-lengths", .. }), "{refusal}");
     }
     let options = MapOptions { energy: Some("H + L".parse().unwrap()), ..free(lengths()) };
-    let error = run(&input, &options, &mut Silent).map(|mapped| mapped.map.provenance.to_string());
+    let error = map_input(&input, &options, &mut Silent).map(|mapped| mapped.map.provenance.to_string());
     assert!(matches!(error, Err(MapError::Lengths(LengthsError::NotKept { .. }))), "{error:?}");
 }
 

@@ -4,14 +4,14 @@
 use std::time::Instant;
 
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, Mapped, run};
+use riemap::map::{Boundary, MapOptions, Mapped, map_input};
 use riemap::solver::Silent;
 
 fn mapped(name: &str, boundary: Boundary, iterations: usize) -> Mapped {
     let options = MapOptions { boundary: boundary.clone(), max_iterations: Some(iterations), ..MapOptions::default() };
     let begun = Instant::now();
     let mapped =
-        run(&Input::open(name).unwrap(), &options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"));
+        map_input(&Input::open(name).unwrap(), &options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"));
     let scale = mapped.distortion.smallest_scale.unwrap();
     println!("{name} {boundary:?}: {} {}, {scale:e}", mapped.map.ending.name(), mapped.map.iterations);
     assert!(begun.elapsed().as_secs() < 60, "{name} {boundary:?}");

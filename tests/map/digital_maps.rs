@@ -14,7 +14,7 @@ fn open(name: &str) -> Input {
 }
 
 fn map(input: &Input, options: &MapOptions) -> Mapped {
-    map::run(input, options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e:?}", input.source))
+    map::map_input(input, options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e:?}", input.source))
 }
 
 fn periodic(normals: &str) -> MapOptions {
@@ -71,7 +71,7 @@ fn a_volume_file_gives_the_map_of_the_voxels_that_were_written() {
     let path = folder.path().join("torus.vol");
     write_vol(&path, &input.digital.as_ref().unwrap().solid).unwrap();
     let read = open(path.to_str().unwrap());
-    assert_eq!(read.surface.faces.len(), input.surface.faces.len());
+    assert_eq!(read.surface.faces().len(), input.surface.faces().len());
     let [a, b] = [&input, &read].map(|input| map(input, &periodic("auto")).torus.unwrap().tau);
     assert!((a - b).norm() < 1e-12, "{a} {b}");
 }
@@ -82,12 +82,12 @@ fn a_digital_torus_cut_open_goes_through_circle_free_and_metric_energies() {
     for energy in ["H + C", "H + Lb", "H + L", "H + A", "H + A + L"] {
         let mapped = map(&input, &cut(energy));
         // Lengths and areas of a torus cannot be kept, and nothing in L or A forbids folds: a few faces pay for it.
-        let allowed = if energy == "H + C" || energy == "H + Lb" { 0 } else { input.surface.faces.len() / 20 };
+        let allowed = if energy == "H + C" || energy == "H + Lb" { 0 } else { input.surface.faces().len() / 20 };
         assert!(mapped.distortion.flipped <= allowed, "{energy}: {}", mapped.distortion.flipped);
         assert_eq!(mapped.cut.genus, 1);
         let texture = mapped.texture_coordinates(&input.surface, Default::default());
         let corners = texture.corners.expect("one pair per corner");
-        assert_eq!(corners.len(), input.surface.faces.corners().len());
+        assert_eq!(corners.len(), input.surface.faces().corners().len());
         assert!(texture.coordinates.iter().flatten().all(|x| x.is_finite()));
     }
 }
@@ -120,7 +120,7 @@ fn every_public_volume_is_diagnosed_cut_and_mapped() {
     {
         let path = folder.join("digital").join(file);
         let input = open(path.to_str().unwrap());
-        assert_eq!(input.surface.faces.len(), surfels, "{file}");
+        assert_eq!(input.surface.faces().len(), surfels, "{file}");
         assert_eq!(input.diagnosis().topology.components[0].genus(), Some(genus), "{file}");
         for options in [cut("H + C"), cut("H + Lb"), MapOptions { boundary: Boundary::FIXED, ..cut("H") }] {
             let mapped = map(&input, &options);

@@ -7,7 +7,7 @@ use riemap::solver::Silent;
 fn mapped(surface: &str, energy: &str, boundary: Boundary) -> Mapped {
     let options = MapOptions { energy: Some(energy.parse().unwrap()), boundary, ..MapOptions::default() };
     let input = Input::open(surface).unwrap();
-    map::run(&input, &options, &mut Silent).unwrap_or_else(|error| panic!("{surface} {energy}: {error}"))
+    map::map_input(&input, &options, &mut Silent).unwrap_or_else(|error| panic!("{surface} {energy}: {error}"))
 }
 
 fn energy_of(mapped: &Mapped, name: &str) -> f64 {
@@ -65,13 +65,13 @@ fn each_energy_is_lowest_under_itself() {
 fn the_compromise_of_h_and_mips_does_not_depend_on_the_unit_of_length() {
     let at = |scale: f64| {
         let mut input = Input::open("graph:cos+cos?n=11&mesh=delaunay").unwrap();
-        input.surface.positions.iter_mut().for_each(|p| *p = p.map(|x| scale * x));
+        input.surface.positions_mut().iter_mut().for_each(|p| *p = p.map(|x| scale * x));
         let options = MapOptions {
             energy: Some("H + 0.1 MIPS".parse().unwrap()),
             boundary: Boundary::FIXED,
             ..MapOptions::default()
         };
-        map::run(&input, &options, &mut Silent).unwrap().map.z
+        map::map_input(&input, &options, &mut Silent).unwrap().map.z
     };
     let (a, b) = (at(1.0), at(1000.0));
     // |∇E| at 1e-10 of the start's.
@@ -87,6 +87,6 @@ fn a_start_that_cannot_be_is_an_error() {
         pins: vec![map::Pin { vertex: 12, place: [5.0, 5.0] }],
         ..MapOptions::default()
     };
-    let error = map::run(&Input::open("plane?n=4&mesh=quad").unwrap(), &options, &mut Silent).unwrap_err();
+    let error = map::map_input(&Input::open("plane?n=4&mesh=quad").unwrap(), &options, &mut Silent).unwrap_err();
     assert!(matches!(error, MapError::NoValidStart { .. }), "{error}");
 }

@@ -5,11 +5,11 @@ use num_complex::Complex64;
 use riemap::energy::conformal::{self, Weight};
 use riemap::energy::{Curvature, Energy, Mips, Rest, Unfolding};
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, Mapped, Valid, run};
+use riemap::map::{Boundary, MapOptions, Mapped, Valid, map_input};
 use riemap::solver::Silent;
 
 fn mapped(name: &str, options: &MapOptions) -> Mapped {
-    run(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
+    map_input(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn folds_of_free_maps_are_taken_out_where_they_are() {
 fn a_map_that_is_stopped_while_folds_are_taken_out_is_valid() {
     let name = "graph:cos+cos?n=41&jitter=0.3&seed=1";
     for n in [1, 2, 3, 4, 6, 8, 10, 15, 25] {
-        let stopped = run(&Input::open(name).unwrap(), &MapOptions::default(), &mut Stopper(n)).unwrap();
+        let stopped = map_input(&Input::open(name).unwrap(), &MapOptions::default(), &mut Stopper(n)).unwrap();
         assert!(stopped.validity.is_one_to_one(), "stopped after {n}: {}", stopped.map.provenance);
         let limited = mapped(name, &MapOptions { max_iterations: Some(n), ..MapOptions::default() });
         assert!(limited.validity.is_one_to_one(), "limited to {n}: {}", limited.map.provenance);

@@ -6,9 +6,9 @@ use riemap::constraint::float_white_back;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
 use riemap::map::{
-    Boundary, Ending, FlatOptions, MapError, MapOptions, Mapped, OptionsError, Pin, PinnedPoints, Valid, run,
+    Boundary, Ending, FlatOptions, MapError, MapOptions, Mapped, OptionsError, Pin, PinnedPoints, Valid, map_input,
 };
-use riemap::solver::{LINEAR_BACKENDS, MINIMISERS, Silent, Status, linear_backend};
+use riemap::solver::{LINEAR_SOLVERS, MINIMISERS, Silent, Status, linear_solver};
 use riemap::surface::Surface;
 
 /// The unit circle, boundary points kept in order.
@@ -33,11 +33,11 @@ fn input(surface: Surface) -> Input {
 
 #[track_caller]
 fn map(name: &str, options: &MapOptions) -> Mapped {
-    run(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
+    map_input(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 fn refusal(name: &str, options: &MapOptions) -> MapError {
-    run(&Input::open(name).unwrap(), options, &mut Silent).err().unwrap()
+    map_input(&Input::open(name).unwrap(), options, &mut Silent).err().unwrap()
 }
 
 fn total(mapped: &Mapped) -> f64 {
@@ -260,15 +260,15 @@ fn staircase(n: u32) -> Surface {
         let [x, y] = corners.fold([0.0; 2], |m, [x, y]| [m[0] + 0.25 * x, m[1] + 0.25 * y]);
         x * x + y * y < 1.0
     };
-    surface(positions.collect(), grid.faces.iter().filter(|face| inside(face)))
+    surface(positions.collect(), grid.faces().iter().filter(|face| inside(face)))
 }
 
 #[test]
 fn keep_order_leaves_no_boundary_point_out_of_order_on_a_staircase() {
     let input = input(staircase(16));
-    let plain = run(&input, &options("", Weight::Integral), &mut Silent).unwrap();
+    let plain = map_input(&input, &options("", Weight::Integral), &mut Silent).unwrap();
     let kept = MapOptions { boundary: in_order(), ..options("", Weight::Integral) };
-    let ordered = run(&input, &kept, &mut Silent).unwrap();
+    let ordered = map_input(&input, &kept, &mut Silent).unwrap();
     show("plain", &plain);
     show("kept", &ordered);
     println!("{:?} {:?}", plain.distortion.boundary_out_of_order, ordered.distortion.boundary_out_of_order);
@@ -276,7 +276,8 @@ fn keep_order_leaves_no_boundary_point_out_of_order_on_a_staircase() {
     assert_eq!(ordered.distortion.boundary_out_of_order, Some(0));
     assert!(total(&ordered) >= total(&plain));
     assert_eq!(ordered.map.energies.len(), 2, "the barrier is no part of the energy that is reported");
-    let error = run(&input, &MapOptions { boundary: in_order(), ..options("H + L", Weight::Integral) }, &mut Silent);
+    let error =
+        map_input(&input, &MapOptions { boundary: in_order(), ..options("H + L", Weight::Integral) }, &mut Silent);
     assert!(matches!(error, Err(MapError::NoCircle { .. })));
 }
 
@@ -305,7 +306,7 @@ fn what_does_not_converge_is_an_error_unless_the_end_was_set() {
     }
     // Out of reach of doubles and of conjugate gradients' default number of iterations alike.
     let never = MapOptions { solver: "cg-exact".to_owned(), tolerance: 1e-300, ..options("H + C", Weight::Unit) };
-    match run(&Input::open("graph:cos+cos?n=9").unwrap(), &never, &mut Silent) {
+    match map_input(&Input::open("graph:cos+cos?n=9").unwrap(), &never, &mut Silent) {
         Ok(mapped) => assert_eq!(mapped.map.ending, Ending::Minimised(Status::Precision)),
         Err(error) => assert!(matches!(error, MapError::NotConverged { .. }), "{error}"),
     }
@@ -316,7 +317,7 @@ fn an_interrupted_map_is_the_initial_one_and_says_so() {
     for (energy, boundary) in [("H + C", Boundary::CIRCLE), ("H + C", in_order()), ("H + Lb", Boundary::FREE)] {
         let input = Input::open("graph:cos+cos?n=9").unwrap();
         let options = MapOptions { boundary, ..options(energy, Weight::Integral) };
-        let mapped = run(&input, &options, &mut Stopper(0)).unwrap();
+        let mapped = map_input(&input, &options, &mut Stopper(0)).unwrap();
         assert_eq!((mapped.map.ending, mapped.map.iterations), (Ending::Minimised(Status::Interrupted), 0));
         assert!(mapped.map.z.iter().all(|z| z.is_finite()) && mapped.distortion.flipped == 0);
     }
@@ -332,12 +333,12 @@ fn options_that_make_no_problem_are_refused() {
         let error = refusal(name, &MapOptions { tolerance, ..options("", Weight::Integral) });
         assert!(matches!(error, MapError::Tolerance { .. }));
     }
-    for backend in LINEAR_BACKENDS {
+    for backend in LINEAR_SOLVERS {
         let error = refusal(name, &MapOptions { solver: backend.name().to_owned(), ..options("", Weight::Integral) });
         assert!(matches!(error, MapError::NotAMinimiser { ref name, .. } if name == backend.name()), "{error}");
     }
     for backend in MINIMISERS {
-        assert!(linear_backend(backend.name()).is_none());
+        assert!(linear_solver(backend.name()).is_none());
         let fixed = MapOptions { boundary: Boundary::FIXED, ..options("", Weight::Integral) };
         let error = refusal(name, &MapOptions { solver: backend.name().to_owned(), ..fixed });
         assert!(matches!(error, MapError::Solve(_)), "{}: {error}", backend.name());
@@ -348,7 +349,7 @@ fn options_that_make_no_problem_are_refused() {
 fn sums_without_a_scale_or_a_place_are_refused_or_mapped_without_nan() {
     // What no energy of the sum determines must not come out as NaN or collapse in silence.
     for energy in ["C", "A", "L", "Lb", "H + C + A", "C + L", "H + C + Lb", "A + Lb"] {
-        match run(&Input::open("graph:cos+cos?n=7").unwrap(), &options(energy, Weight::Integral), &mut Silent) {
+        match map_input(&Input::open("graph:cos+cos?n=7").unwrap(), &options(energy, Weight::Integral), &mut Silent) {
             Ok(mapped) => {
                 show(energy, &mapped);
                 assert!(mapped.map.z.iter().all(|z| z.is_finite()), "{energy}");

@@ -203,8 +203,8 @@ fn every_public_mesh_gets_the_diagnosis_that_was_reached_independently() {
             }
         };
         let diagnosis = Diagnosis::new(&surface);
-        if surface.positions.len() != vertices {
-            wrong.push(format!("{file}: {} vertices instead of {vertices}", surface.positions.len()));
+        if surface.positions().len() != vertices {
+            wrong.push(format!("{file}: {} vertices instead of {vertices}", surface.positions().len()));
         }
         let found = comparable(diagnosis.findings.clone(), &findings);
         if found != findings {

@@ -3,7 +3,7 @@
 use crate::common::*;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
-use riemap::map::{MapOptions, run};
+use riemap::map::{MapOptions, map_input};
 use riemap::report::ErrorRecord;
 use riemap::solver::Silent;
 
@@ -14,7 +14,7 @@ fn error(surface: &str, mesh: &str, n: u32, dual: &str, weight: Weight) -> Error
     let name = format!("{surface}?n={n}&mesh={mesh}");
     let input = Input::open(&name).unwrap();
     let options = MapOptions { dual: dual.to_owned(), weight, ..MapOptions::default() };
-    let mapped = run(&input, &options, &mut Silent).unwrap_or_else(|error| panic!("{name} {dual}: {error}"));
+    let mapped = map_input(&input, &options, &mut Silent).unwrap_or_else(|error| panic!("{name} {dual}: {error}"));
     assert!(mapped.map.anchored && mapped.map.iterations <= 20, "{name} {dual}: {}", mapped.map.iterations);
     assert_eq!(mapped.distortion.flipped, 0, "{name} {dual}");
     ErrorRecord::new(input.exact.as_ref().unwrap(), &mapped.domain.disc, &mapped.map)

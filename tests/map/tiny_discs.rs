@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::common::surface;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapError, MapOptions, PinnedPoints, Valid, run};
+use riemap::map::{Boundary, MapError, MapOptions, PinnedPoints, Valid, map_input};
 use riemap::solver::Silent;
 use riemap::surface::Surface;
 
@@ -69,7 +69,7 @@ fn the_smallest_discs_are_mapped_under_every_choice() {
                         valid,
                         ..MapOptions::default()
                     };
-                    let made = match run(&Input::of(name.to_owned(), s.clone()), &options, &mut Silent) {
+                    let made = match map_input(&Input::of(name.to_owned(), s.clone()), &options, &mut Silent) {
                         Ok(made) => made,
                         Err(error) => {
                             println!("{what}: {error}");
@@ -114,7 +114,7 @@ fn quads_that_cannot_be_convex_are_refused_by_name() {
     for boundary in [Boundary::CIRCLE, Boundary::FREE] {
         let of = |valid| {
             let options = MapOptions { boundary: boundary.clone(), valid, ..MapOptions::default() };
-            run(&Input::of("doublet".to_owned(), s.clone()), &options, &mut Silent)
+            map_input(&Input::of("doublet".to_owned(), s.clone()), &options, &mut Silent)
         };
         let error = of(Valid::Auto).unwrap_err();
         assert!(matches!(error, MapError::NoConvexQuads { vertex: 5, count: 1 }), "{boundary:?}: {error}");

@@ -3,7 +3,7 @@
 #![allow(dead_code)]
 
 use riemap::io::{self, Format, MeshFile, ParseError};
-use riemap::surface::{Faces, Surface};
+use riemap::surface::Surface;
 
 pub fn good(format: Format, content: impl AsRef<[u8]>) -> MeshFile {
     let content = content.as_ref();
@@ -17,7 +17,7 @@ pub fn bad(format: Format, content: impl AsRef<[u8]>) -> ParseError {
 /// Two triangles of the unit square.
 pub fn square() -> Surface {
     let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    Surface { positions, faces: Faces::from_iter([[0, 1, 2], [0, 2, 3]]), face_normals: None }
+    crate::common::surface(positions, [[0, 1, 2], [0, 2, 3]])
 }
 
 pub const SQUARE_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
@@ -30,7 +30,6 @@ pub const SQUARE_STL: &str = "solid a square\nfacet normal 0 0 1\nouter loop\nve
 pub const SQUARES: [(Format, &str); 4] =
     [(Format::Obj, SQUARE_OBJ), (Format::Off, SQUARE_OFF), (Format::Ply, SQUARE_PLY), (Format::Stl, SQUARE_STL)];
 
-pub fn without_normals(mut mesh: MeshFile) -> Surface {
-    mesh.surface.face_normals = None;
-    mesh.surface
+pub fn without_normals(mesh: MeshFile) -> Surface {
+    crate::common::surface(mesh.surface.positions().to_vec(), mesh.surface.faces().iter())
 }

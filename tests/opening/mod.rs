@@ -17,7 +17,7 @@ pub fn generated(name: &str) -> Surface {
 /// `tori` tori in a row, sewn together along rims of faces.
 pub fn sum_of_tori(tori: usize) -> Surface {
     let torus = quad_grid(7, 6, Sides::Torus);
-    (1..tori).fold(torus.clone(), |s, _| connected_sum(&s, s.faces.len() / 2, &torus, 10))
+    (1..tori).fold(torus.clone(), |s, _| connected_sum(&s, s.faces().len() / 2, &torus, 10))
 }
 
 pub fn open(s: &Surface, opening: &Opening) -> Result<(OrientedMesh, CutRecord), CutError> {
@@ -40,7 +40,7 @@ pub fn removing(faces: &[u32]) -> Opening {
 #[track_caller]
 pub fn opened(name: &str, s: &Surface, opening: &Opening) -> (OrientedMesh, CutRecord) {
     let (disc, record) = open(s, opening).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let as_surface = Surface { positions: disc.positions.clone(), faces: disc.faces.clone(), face_normals: None };
+    let as_surface = disc.to_surface();
     let topology = Topology::new(&as_surface);
     assert_eq!(topology.components.len(), 1, "{name}");
     let part = &topology.components[0];
@@ -72,15 +72,15 @@ pub fn opened(name: &str, s: &Surface, opening: &Opening) -> (OrientedMesh, CutR
 pub fn is_the_source_again(name: &str, s: &Surface, disc: &OrientedMesh, opening: &Opening, record: &CutRecord) {
     assert!(disc.source_vertex.is_sorted() && disc.source_face.is_sorted(), "{name}");
     let corners = disc.corner_vertices(s);
-    let edges = Edges::new(&s.faces, s.positions.len());
+    let edges = Edges::new(s.faces(), s.positions().len());
     let mut images = std::collections::HashMap::new();
     for (c, &v) in corners.iter().enumerate() {
         let removed = opening.remove_faces.contains(&edges.face_of_corner[c]);
         assert_eq!(v == OrientedMesh::NEW, removed, "{name}");
         if !removed {
-            let source = s.faces.corners()[c];
+            let source = s.faces().corners()[c];
             assert_eq!(disc.source_vertex[v as usize], source, "{name}");
-            assert_eq!(disc.positions[v as usize], s.positions[source as usize], "{name}");
+            assert_eq!(disc.positions[v as usize], s.positions()[source as usize], "{name}");
             assert!(disc.copies(source).contains(&v), "{name}");
             images.entry(source).or_insert_with(std::collections::HashSet::new).insert(v);
         }
@@ -93,7 +93,7 @@ pub fn is_the_source_again(name: &str, s: &Surface, disc: &OrientedMesh, opening
     assert!(disc.is_cut() || images.values().all(|i| i.len() == 1), "{name}");
     // inner edges of the source whose two sides have different ends now
     let ends = |c: u32| {
-        let range = s.faces.corner_range(edges.face_of_corner[c as usize] as usize);
+        let range = s.faces().corner_range(edges.face_of_corner[c as usize] as usize);
         let next = if c as usize + 1 == range.end { range.start } else { c as usize + 1 };
         let (a, b) = (corners[c as usize], corners[next]);
         (a.min(b), a.max(b))
@@ -115,15 +115,10 @@ pub fn file(name: &str) -> Option<Surface> {
     Some(riemap::io::read(&path).unwrap_or_else(|error| panic!("{error}")).surface)
 }
 
-/// The faces and positions of a disc.
-pub fn surface_of(disc: &OrientedMesh) -> Surface {
-    Surface { positions: disc.positions.clone(), faces: disc.faces.clone(), face_normals: disc.face_normals.clone() }
-}
-
 /// The diagnosis of a disc or closed surface, which must be sound but for being closed.
 #[track_caller]
 pub fn sound(name: &str, disc: &OrientedMesh) -> Diagnosis {
-    let diagnosis = Diagnosis::new(&surface_of(disc));
+    let diagnosis = Diagnosis::new(&disc.to_surface());
     let wrong: Vec<&Finding> = diagnosis.fatal().filter(|f| !matches!(f, Finding::Closed { .. })).collect();
     assert!(wrong.is_empty(), "{name}: {wrong:?}");
     assert!(diagnosis.topology.orientation.flip.iter().all(|flip| !flip), "{name}");

@@ -8,7 +8,7 @@ use riemap::energy::conformal::{self, Weight};
 use riemap::problem::linear::{LinearProblem, system};
 use riemap::quad_graph::QuadGraph;
 use riemap::solver::{
-    LINEAR_BACKENDS, Observer, Phase, Silent, SolveError, Unsuitable, automatic, linear_backend, solve_linear,
+    LINEAR_SOLVERS, Observer, Phase, Silent, SolveError, Unsuitable, automatic, linear_solver, solve_linear,
 };
 
 /// What is held.
@@ -46,7 +46,7 @@ fn difference(a: &[Complex64], b: &[Complex64]) -> f64 {
 
 #[test]
 fn all_backends_that_take_a_problem_give_the_same_map() {
-    let (mut solved_by, mut refused_by) = (vec![0; LINEAR_BACKENDS.len()], vec![0; LINEAR_BACKENDS.len()]);
+    let (mut solved_by, mut refused_by) = (vec![0; LINEAR_SOLVERS.len()], vec![0; LINEAR_SOLVERS.len()]);
     let (mut negative, mut square) = (0, 0);
     for (name, graph) in graphs() {
         for weight in [Weight::Integral, Weight::Unit] {
@@ -57,7 +57,7 @@ fn all_backends_that_take_a_problem_give_the_same_map() {
                 assert_eq!(problem.is_square(), kind == Held::Primal, "{what}");
                 assert_eq!(problem.holds_whole_boundary(), kind == Held::Whole, "{what}");
                 let mut found: Vec<(&str, Vec<Complex64>)> = Vec::new();
-                for (b, backend) in LINEAR_BACKENDS.iter().enumerate() {
+                for (b, backend) in LINEAR_SOLVERS.iter().enumerate() {
                     match solve_linear(&problem, backend.name(), &mut Silent) {
                         Ok(solution) => {
                             assert_eq!(solution.backend, backend.name());
@@ -96,7 +96,7 @@ fn all_backends_that_take_a_problem_give_the_same_map() {
             }
         }
     }
-    for (b, backend) in LINEAR_BACKENDS.iter().enumerate() {
+    for (b, backend) in LINEAR_SOLVERS.iter().enumerate() {
         assert!(solved_by[b] > 0, "{} solved nothing", backend.name());
     }
     // the two general ones refuse only what has no weights
@@ -247,7 +247,7 @@ fn refusals_say_what_stands_against_the_backend() {
     let circum = graph_of(&disc_of("graph:saddle?n=8&amplitude=4&mesh=triangle"), "circumcentre");
     let suits = |name: &str, graph: &QuadGraph, weight, kind| {
         let problem = LinearProblem::new(graph, weight, &held(graph, kind)).expect("well posed");
-        linear_backend(name).expect(name).suits(&problem)
+        linear_solver(name).expect(name).suits(&problem)
     };
     let free = bary.vertices - bary.boundary.len();
     assert_eq!(
@@ -286,10 +286,10 @@ fn an_unknown_solver_is_told_the_known_ones() {
     let error = solve_linear(&problem, "cholesy", &mut Silent).expect_err("misspelt");
     let text = error.to_string();
     assert!(text.contains("`cholesy`") && text.contains("auto"), "{text}");
-    assert!(LINEAR_BACKENDS.iter().all(|b| text.contains(b.name())), "{text}");
-    assert!(linear_backend("cholesy").is_none());
-    for (k, backend) in LINEAR_BACKENDS.iter().enumerate() {
-        assert!(LINEAR_BACKENDS[..k].iter().all(|other| other.name() != backend.name()));
+    assert!(LINEAR_SOLVERS.iter().all(|b| text.contains(b.name())), "{text}");
+    assert!(linear_solver("cholesy").is_none());
+    for (k, backend) in LINEAR_SOLVERS.iter().enumerate() {
+        assert!(LINEAR_SOLVERS[..k].iter().all(|other| other.name() != backend.name()));
         assert!(!backend.description().is_empty() && backend.name() != "auto");
     }
 }
@@ -306,7 +306,7 @@ fn phases_are_announced_in_order() {
         let graph = graph_of(&disc_of("sphere?n=4&mesh=triangle"), dual);
         for kind in [Held::Whole, Held::Primal] {
             let problem = LinearProblem::new(&graph, Weight::Unit, &held(&graph, kind)).expect("well posed");
-            for backend in LINEAR_BACKENDS.iter().filter(|b| b.suits(&problem).is_ok()) {
+            for backend in LINEAR_SOLVERS.iter().filter(|b| b.suits(&problem).is_ok()) {
                 let mut heard = Heard(Vec::new());
                 backend.solve(&problem, &mut heard).expect("solvable");
                 assert_eq!(heard.0, [Phase::Assemble, Phase::Factor, Phase::Solve], "{}", backend.name());

@@ -21,20 +21,20 @@ fn on(on: Outline, weights: &str) -> MapOptions {
 }
 
 fn mapped(name: &str, options: &MapOptions) -> Mapped {
-    map::run(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
+    map::map_input(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 /// What `flat` does under the weights with its boundary held where it lies.
 fn of_flat(flat: &Surface, weights: &str) -> (Vec<Complex64>, Mapped) {
     let boundary = disc(flat).boundary;
     let places = boundary.iter().map(|&vertex| {
-        let [x, y, _] = flat.positions[vertex as usize];
+        let [x, y, _] = flat.positions()[vertex as usize];
         Pin { vertex, place: [x, y] }
     });
     let options = on(Outline::Places(places.collect()), weights);
     let input = Input::of("flat".to_owned(), flat.clone());
-    let z = flat.positions.iter().map(|&[x, y, _]| Complex64::new(x, y)).collect();
-    (z, map::run(&input, &options, &mut Silent).unwrap())
+    let z = flat.positions().iter().map(|&[x, y, _]| Complex64::new(x, y)).collect();
+    (z, map::map_input(&input, &options, &mut Silent).unwrap())
 }
 
 #[test]
@@ -110,7 +110,8 @@ fn finger(girth: u32, rings: u32) -> Surface {
 fn what_rounding_spoils_is_drawn_outward() {
     for girth in [3, 4, 7] {
         let finger = Input::of("finger".to_owned(), finger(girth, 400));
-        let run = |valid: Valid| map::run(&finger, &MapOptions { valid, ..options("uniform") }, &mut Silent).unwrap();
+        let run =
+            |valid: Valid| map::map_input(&finger, &MapOptions { valid, ..options("uniform") }, &mut Silent).unwrap();
         let spoiled = run(Valid::Off);
         assert!(!spoiled.validity.is_one_to_one() && !spoiled.map.provenance.is_repaired(), "{girth}");
         let mended = run(Valid::Auto);
@@ -126,7 +127,7 @@ fn what_rounding_spoils_is_drawn_outward() {
 #[test]
 fn weights_beside_an_energy_or_another_boundary_are_refused() {
     let input = Input::open("plane?n=4").unwrap();
-    let refused = |options: MapOptions| map::run(&input, &options, &mut Silent).unwrap_err();
+    let refused = |options: MapOptions| map::map_input(&input, &options, &mut Silent).unwrap_err();
     let circle = FlatOptions { weights: Some("uniform".to_owned()), ..FlatOptions::default() };
     let refusal = MapOptions::try_from(circle).unwrap_err();
     assert!(matches!(refusal, OptionsError::OtherBoundary { key: "weights", .. }), "{refusal}");

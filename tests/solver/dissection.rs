@@ -21,7 +21,7 @@ fn graph(name: &str) -> QuadGraph {
 fn shuffled(name: &str) -> QuadGraph {
     let surface = Input::open(name).unwrap().surface;
     let mut random = Random(1);
-    let [faces, vertices] = [surface.faces.len(), surface.positions.len()].map(|n| random.permutation(n));
+    let [faces, vertices] = [surface.faces().len(), surface.positions().len()].map(|n| random.permutation(n));
     graph_of(&disc(&crate::common::shuffled(&surface, &faces, &vertices)), "")
 }
 

@@ -6,7 +6,7 @@ use riemap::energy::conformal::{self, Weight};
 use riemap::problem::linear::{LinearProblem, system};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
-use riemap::solver::{LINEAR_BACKENDS, Silent, SolveError, solve_linear};
+use riemap::solver::{LINEAR_SOLVERS, Silent, SolveError, solve_linear};
 use riemap::surface::oriented_mesh::OrientedMesh;
 
 /// Planar discs, jittered, random, with obtuse angles.
@@ -145,7 +145,7 @@ fn every_backend_reproduces_a_planar_mesh_from_its_boundary() {
         for weight in [Weight::Integral, Weight::Unit] {
             for fixed in [hold_boundary(&graph, &z), hold_every_second(&graph, &z)] {
                 let problem = LinearProblem::new(&graph, weight, &fixed).unwrap_or_else(|e| panic!("{name}: {e}"));
-                for backend in LINEAR_BACKENDS {
+                for backend in LINEAR_SOLVERS {
                     match solve_linear(&problem, backend.name(), &mut Silent) {
                         Ok(solution) => {
                             solved += 1;

@@ -6,7 +6,7 @@ use crate::common::*;
 use num_complex::Complex64;
 use riemap::energy::conformal::{Weight, normal_product, normal_product_scale, weights};
 use riemap::input::Input;
-use riemap::map::{Boundary, Exactly, MapError, MapOptions, Mapped, Pin, Provenance, RhoSource, Valid, run};
+use riemap::map::{Boundary, Exactly, MapError, MapOptions, Mapped, Pin, Provenance, RhoSource, Valid, map_input};
 use riemap::quad_graph::curvature;
 use riemap::solver::Silent;
 use riemap::solver::boundary::{BoundaryError, Reduction};
@@ -22,11 +22,11 @@ fn free(solver: &str) -> MapOptions {
 
 #[track_caller]
 fn map(name: &str, options: &MapOptions) -> Mapped {
-    run(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
+    map_input(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 fn refusal(name: &str, options: &MapOptions) -> MapError {
-    run(&Input::open(name).unwrap(), options, &mut Silent).err().unwrap()
+    map_input(&Input::open(name).unwrap(), options, &mut Silent).err().unwrap()
 }
 
 fn h(mapped: &Mapped) -> f64 {
@@ -256,7 +256,7 @@ fn the_smallest_meshes_are_mapped_or_refused_in_words() {
     for surface in [quad_grid(1, 1, Sides::Free), quad_grid(1, 2, Sides::Free), quad_grid(2, 2, Sides::Free)] {
         for surface in [triangulated(&surface), surface] {
             for options in [circle("auto"), free("auto")] {
-                match run(&Input::of("small".to_owned(), surface.clone()), &options, &mut Silent) {
+                match map_input(&Input::of("small".to_owned(), surface.clone()), &options, &mut Silent) {
                     Ok(mapped) => assert!(mapped.map.z.iter().all(|z| z.is_finite())),
                     Err(error) => println!("{error}"),
                 }

@@ -4,7 +4,7 @@ use crate::common::{Random, shuffled};
 use num_complex::Complex64;
 use riemap::energy::conformal::Weight;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, Mapped, Start, Valid, run};
+use riemap::map::{Boundary, MapOptions, Mapped, Start, Valid, map_input};
 use riemap::solver::Silent;
 use riemap::surface::Surface;
 
@@ -17,7 +17,7 @@ fn options(energy: &str, start: Start) -> MapOptions {
 
 #[track_caller]
 fn map(name: &str, options: &MapOptions) -> Mapped {
-    run(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
+    map_input(&Input::open(name).unwrap(), options, &mut Silent).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 /// The paper's gauge, a boundary vertex and the next edge, took 52 and 110 iterations: as many as the mesh has columns.
@@ -61,20 +61,20 @@ fn metric_energies_do_not_depend_on_where_the_gauge_is_held() {
     // The same mesh with its boundary begun elsewhere: vertices renamed.
     let name = "graph:cos+cos?n=9&jitter=0.2&seed=3";
     let surface = Input::open(name).unwrap().surface;
-    let names = Random(5).permutation(surface.positions.len());
-    let order: Vec<u32> = (0..surface.faces.len() as u32).collect();
+    let names = Random(5).permutation(surface.positions().len());
+    let order: Vec<u32> = (0..surface.faces().len() as u32).collect();
     let named = |surface: Surface| Input::of("test".to_owned(), surface);
     let renamed = named(shuffled(&surface, &order, &names));
     for energy in ["H + A", "H + L", "H + A + L", "H + Lb"] {
         let options =
             MapOptions { tolerance: 1e-11, weight: Weight::Unit, valid: Valid::Off, ..options(energy, Start::Auto) };
-        let a = run(&named(surface.clone()), &options, &mut Silent).unwrap();
-        let b = run(&renamed, &options, &mut Silent).unwrap();
+        let a = map_input(&named(surface.clone()), &options, &mut Silent).unwrap();
+        let b = map_input(&renamed, &options, &mut Silent).unwrap();
         assert_ne!(names[a.domain.graph.boundary[0] as usize], b.domain.graph.boundary[0], "another gauge");
         let [ea, eb] = [&a, &b].map(|mapped| mapped.map.total.unwrap());
         assert!((ea - eb).abs() < 1e-9 * ea + 1e-16, "{energy}: {ea:e} {eb:e}");
         // All distances agree, the white offset included: |g| is down to 1e-11.
-        let far = surface.positions.len() - 1;
+        let far = surface.positions().len() - 1;
         for v in 0..far {
             let da = (a.map.z[v] - a.map.z[far]).norm();
             let db = (b.map.z[names[v] as usize] - b.map.z[names[far] as usize]).norm();

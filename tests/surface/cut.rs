@@ -18,7 +18,7 @@ use riemap::surface::topology::diagnosis::{Diagnosis, Finding};
 use riemap::surface::topology::tree_cotree::{EdgeGraph, TreeCotree};
 
 fn lengths(s: &Surface, edges: &Edges) -> Vec<f64> {
-    edges.ends.iter().map(|&[a, b]| distance(s.positions[a as usize], s.positions[b as usize])).collect()
+    edges.ends.iter().map(|&[a, b]| distance(s.positions()[a as usize], s.positions()[b as usize])).collect()
 }
 
 #[test]
@@ -33,20 +33,20 @@ fn a_surface_of_genus_g_has_2g_loops_and_dual_loops_that_cross_them_in_pairs() {
         (2, sum_of_tori(2)),
         (3, triangulated(&holed(&sum_of_tori(3)))),
     ] {
-        let edges = Edges::new(&s.faces, s.positions.len());
-        let graph = EdgeGraph::new(&s.faces, &edges, s.positions.len(), lengths(&s, &edges));
-        for root in [0, graph.node[s.faces.get(s.faces.len() / 2)[0] as usize]] {
+        let edges = Edges::new(s.faces(), s.positions().len());
+        let graph = EdgeGraph::new(s.faces(), &edges, s.positions().len(), lengths(&s, &edges));
+        for root in [0, graph.node[s.faces().get(s.faces().len() / 2)[0] as usize]] {
             let system = TreeCotree::new(&graph, root);
             assert_eq!(system.left_over.len(), 2 * genus);
             for k in 0..2 * genus {
-                let mut omega = vec![0i32; s.faces.corners().len()];
+                let mut omega = vec![0i32; s.faces().corners().len()];
                 for c in system.dual_loop(&graph, k) {
                     omega[c as usize] += 1;
                     omega[edges.opposite(c as usize).expect("an inner edge")] -= 1;
                 }
                 assert!(omega.iter().all(|w| w.abs() <= 1), "no edge is crossed twice");
-                for f in 0..s.faces.len() {
-                    assert_eq!(s.faces.corner_range(f).map(|c| omega[c]).sum::<i32>(), 0, "closed around face {f}");
+                for f in 0..s.faces().len() {
+                    assert_eq!(s.faces().corner_range(f).map(|c| omega[c]).sum::<i32>(), 0, "closed around face {f}");
                 }
                 for j in 0..2 * genus {
                     assert_eq!(along(&s, &graph, &omega, root, &system.loop_edges(&graph, j)).abs(), i32::from(j == k));
@@ -61,7 +61,7 @@ fn along(s: &Surface, graph: &EdgeGraph, omega: &[i32], root: u32, walk: &[u32])
     let (mut at, mut sum) = (root, 0);
     for &e in walk {
         let c = graph.edges.corners(e as usize)[0] as usize;
-        let forward = graph.node[s.faces.corners()[c] as usize] == at;
+        let forward = graph.node[s.faces().corners()[c] as usize] == at;
         sum += if forward { omega[c] } else { -omega[c] };
         at = graph.across(e, at);
     }
@@ -89,7 +89,7 @@ fn every_connected_surface_is_cut_to_a_disc() {
         let (disc, record) = opened(name, &s, &cutting());
         assert_eq!((record.genus, record.boundary_loops), (genus, loops), "{name}");
         assert!(record.cut_edges > 0 && disc.boundary.len() >= 4, "{name}");
-        assert_eq!(disc.faces.len(), s.faces.len(), "{name}");
+        assert_eq!(disc.faces.len(), s.faces().len(), "{name}");
         let rim: usize = Topology::new(&s).components[0].boundary_loops.iter().sum();
         assert_eq!(disc.boundary.len(), rim + 2 * record.cut_edges, "{name}");
     }
@@ -142,7 +142,7 @@ fn a_torus_is_cut_along_its_shortest_meridian_and_its_inner_equator() {
 fn an_annulus_is_cut_along_a_shortest_path() {
     // columns of a cylinder, one shorter than the others
     let mut s = quad_grid(12, 5, Sides::Cylinder);
-    for (v, x) in s.positions.iter_mut().enumerate() {
+    for (v, x) in s.positions_mut().iter_mut().enumerate() {
         let (i, j) = (v % 12, v / 12);
         let (sin, cos) = (TAU * i as f64 / 12.0).sin_cos();
         *x = [3.0 * cos, 3.0 * sin, j as f64 * if i == 7 { 0.9 } else { 1.0 }];
@@ -156,8 +156,8 @@ fn an_annulus_is_cut_along_a_shortest_path() {
 #[test]
 fn a_closed_sphere_is_cut_between_two_far_points() {
     let mut s = octahedron();
-    s.positions[4][2] = 9.0;
-    s.positions[5][2] = -9.0;
+    s.positions_mut()[4][2] = 9.0;
+    s.positions_mut()[5][2] = -9.0;
     let (disc, record) = opened("needle", &s, &cutting());
     assert_eq!(record.cut_edges, 2);
     assert_eq!((disc.copies(4).len(), disc.copies(5).len(), disc.boundary.len()), (1, 1, 4));
@@ -245,18 +245,18 @@ proptest! {
         let torus = quad_grid(3 + random.below(5) as u32, 3 + random.below(4) as u32, Sides::Torus);
         let mut s = sphere;
         for _ in 0..tori {
-            s = connected_sum(&s, random.below(s.faces.len()), &torus, random.below(torus.faces.len()));
+            s = connected_sum(&s, random.below(s.faces().len()), &torus, random.below(torus.faces().len()));
         }
         s = if split { triangulated(&s) } else { s };
         // any places at all: only the lengths change
-        for x in &mut s.positions {
+        for x in s.positions_mut() {
             *x = random.vector();
         }
-        let turned: Vec<usize> = (0..s.faces.len()).filter(|_| random.below(3) == 0).collect();
-        let order = random.permutation(s.faces.len());
-        let name = random.permutation(s.positions.len());
+        let turned: Vec<usize> = (0..s.faces().len()).filter(|_| random.below(3) == 0).collect();
+        let order = random.permutation(s.faces().len());
+        let name = random.permutation(s.positions().len());
         let s = shuffled(&flipped(&s, turned), &order, &name);
-        let remove_faces: Vec<u32> = (0..holes).map(|_| random.below(s.faces.len()) as u32).collect();
+        let remove_faces: Vec<u32> = (0..holes).map(|_| random.below(s.faces().len()) as u32).collect();
         let opening = Opening { cut: true, remove_faces, fill_holes: random.below(4) == 0 };
         // Random gluing may make edges of more faces; random holes may leave pieces, or be of no fillable shape.
         let diagnosis = Diagnosis::new(&s);
@@ -269,7 +269,7 @@ proptest! {
         if !refused {
             let (disc, record) = opened("sum of tori", &s, &opening);
             prop_assert!(record.genus <= tori as u64 && disc.boundary.len() >= 3);
-            prop_assert!(s.faces.arity() != Some(4) || disc.boundary.len() % 2 == 0);
+            prop_assert!(s.faces().arity() != Some(4) || disc.boundary.len() % 2 == 0);
         }
     }
 
@@ -294,7 +294,7 @@ proptest! {
         let (s, _) = boundary(solid, adjacency, 0).expect("not empty");
         let diagnosis = Diagnosis::new(&s);
         let genus = diagnosis.topology.components[0].genus();
-        let remove_faces: Vec<u32> = (0..holes).map(|_| random.below(s.faces.len()) as u32).collect();
+        let remove_faces: Vec<u32> = (0..holes).map(|_| random.below(s.faces().len()) as u32).collect();
         let opening = Opening { cut: true, fill_holes: random.below(3) == 0, remove_faces };
         match OrientedMesh::open(&s, &diagnosis, &opening) {
             Err(CutError::Pieces { .. }) => prop_assert!(holes > 1),

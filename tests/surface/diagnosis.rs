@@ -33,9 +33,9 @@ fn a_mesh_without_faces_is_told_so() {
 #[test]
 fn coordinates_that_are_no_numbers_are_counted_and_silence_the_other_geometry() {
     let mut s = triangulated(&strip(3));
-    s.positions[5] = [f64::NAN, 0.0, 0.0];
-    s.positions[2][2] = f64::INFINITY;
-    s.positions[7][1] = f64::NEG_INFINITY;
+    s.positions_mut()[5] = [f64::NAN, 0.0, 0.0];
+    s.positions_mut()[2][2] = f64::INFINITY;
+    s.positions_mut()[7][1] = f64::NEG_INFINITY;
     assert_eq!(findings(&s), [Finding::NotFinite { vertex: 2, count: 3 }]);
 }
 
@@ -76,9 +76,9 @@ fn duplicate_faces_are_found_whatever_their_orientation_and_first_corner() {
 #[test]
 fn zero_length_edges_spoil_triangles_but_not_quads() {
     let mut s = triangulated(&strip(2));
-    s.positions[1] = s.positions[2];
+    s.positions_mut()[1] = s.positions()[2];
     // the edge 1–2 belongs to face 2 = (1, 2, 5)
-    assert_eq!(s.faces.get(2), [1, 2, 5]);
+    assert_eq!(s.faces().get(2), [1, 2, 5]);
     assert_eq!(
         findings(&s),
         [
@@ -88,7 +88,7 @@ fn zero_length_edges_spoil_triangles_but_not_quads() {
         ]
     );
     let mut quads = strip(2);
-    quads.positions[1] = quads.positions[2];
+    quads.positions_mut()[1] = quads.positions()[2];
     let found = findings(&quads);
     assert_eq!(
         found,
@@ -164,8 +164,8 @@ fn a_vertex_of_two_fans_is_named() {
 fn two_spheres_in_one_vertex_are_two_components_and_one_pinched_vertex() {
     let two = union(&octahedron(), &octahedron());
     let s = surface(
-        two.positions.clone(),
-        two.faces.iter().map(|f| [f[0], f[1], f[2]].map(|v| if v == 7 { 0 } else { v })),
+        two.positions().to_vec(),
+        two.faces().iter().map(|f| [f[0], f[1], f[2]].map(|v| if v == 7 { 0 } else { v })),
     );
     let diagnosis = Diagnosis::new(&s);
     assert_eq!(
@@ -215,7 +215,7 @@ fn the_smaller_patch_is_turned_over() {
         let got = OrientedMesh::new(&flipped(&s, turned.iter().copied()), &diagnosis).expect("a disc");
         let upside_down = turned.len() >= 12;
         let expected = if upside_down { flipped(&s, 0..24) } else { s.clone() };
-        assert_eq!(got.faces, expected.faces);
+        assert_eq!(&got.faces, expected.faces());
         let mut boundary = disc(&s).boundary;
         if upside_down {
             boundary[1..].reverse();
@@ -226,8 +226,8 @@ fn the_smaller_patch_is_turned_over() {
 
 #[test]
 fn normals_turn_over_with_their_faces() {
-    let mut s = flipped(&strip(3), [1]);
-    s.face_normals = Some(vec![[0., 0., 1.], [0., 0., -1.], [0., 0., 1.]]);
+    let normals = vec![[0., 0., 1.], [0., 0., -1.], [0., 0., 1.]];
+    let s = flipped(&strip(3), [1]).with_face_normals(normals).expect("one for each face");
     assert_eq!(disc(&s).face_normals, Some(vec![[0., 0., 1.]; 3]));
 }
 
@@ -278,24 +278,25 @@ fn components_are_told_apart_even_where_their_totals_look_like_one_surface() {
 
 #[test]
 fn unreferenced_and_coincident_vertices_are_noted_and_harmless() {
-    let mut s = strip(3);
-    s.positions.insert(2, [7.0; 3]);
-    s.positions.push([f64::from(1), 0.0, 0.0]);
-    s.faces = s.faces.renumbered(&[0, 1, 3, 4, 5, 6, 7, 8]);
+    let plain = strip(3);
+    let mut positions = plain.positions().to_vec();
+    positions.insert(2, [7.0; 3]);
+    positions.push([f64::from(1), 0.0, 0.0]);
+    let s = surface(positions, plain.faces().renumbered(&[0, 1, 3, 4, 5, 6, 7, 8]).iter());
     let diagnosis = Diagnosis::new(&s);
     // vertex 9 lies where vertex 1 does, but nobody uses it
     assert_eq!(diagnosis.findings, [Finding::Unreferenced { vertex: 2, count: 2 }]);
     let disc = OrientedMesh::new(&s, &diagnosis).expect("a disc");
     assert_eq!(disc.source_vertex, [0, 1, 3, 4, 5, 6, 7, 8]);
-    assert_eq!(disc.positions, strip(3).positions);
-    assert_eq!(disc.faces, strip(3).faces);
+    assert_eq!(disc.positions, strip(3).positions());
+    assert_eq!(&disc.faces, strip(3).faces());
 
     // a ring slit open: two vertices twice
     let mut slit = strip(4);
-    slit.positions[4] = slit.positions[0];
-    slit.positions[9] = slit.positions[5];
+    let places = slit.positions_mut();
+    (places[4], places[9]) = (places[0], places[5]);
     // -0 and 0 are the same place
-    slit.positions[9][2] = -0.0;
+    places[9][2] = -0.0;
     assert_eq!(findings(&slit), [Finding::CoincidentVertices { first: [0, 4], count: 2 }]);
 }
 
@@ -336,7 +337,7 @@ fn every_finding_says_what_and_where() {
 fn the_error_of_a_surface_that_is_no_disc_lists_every_fatal_finding() {
     // bow-tie of a triangle and one without area, an unused vertex
     let mut s = surface(scattered(6), [[0, 1, 2], [2, 3, 4]]);
-    s.positions[4] = s.positions[3];
+    s.positions_mut()[4] = s.positions()[3];
     let diagnosis = Diagnosis::new(&s);
     let error = OrientedMesh::new(&s, &diagnosis).expect_err("no disc");
     assert_eq!(error.findings, diagnosis.fatal().cloned().collect::<Vec<_>>());
@@ -350,8 +351,8 @@ fn the_error_of_a_surface_that_is_no_disc_lists_every_fatal_finding() {
 
 #[test]
 fn fatal_findings_come_first() {
-    let mut s = flipped(&union(&strip(5), &strip(4)), [2]);
-    s.positions.push([5.0; 3]);
+    let two = flipped(&union(&strip(5), &strip(4)), [2]);
+    let s = surface([two.positions(), &[[5.0; 3]]].concat(), two.faces().iter());
     let severities: Vec<Severity> = findings(&s).iter().map(Finding::severity).collect();
     assert_eq!(severities, [Severity::Fatal, Severity::Repaired, Severity::Note]);
 }

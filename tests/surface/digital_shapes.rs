@@ -73,7 +73,7 @@ fn voxels_are_those_whose_centres_satisfy_the_closed_form() {
 fn tori_have_the_surfels_that_another_program_counts() {
     for (at, count) in [("", 1560), ("&x=0.5&y=0.5&z=0.5", 1400), ("&x=0.3&y=0.2&z=0.1", 1536)] {
         let g = make(&format!("digital-torus?R=8&r=3.2{at}"));
-        assert_eq!(g.surface.faces.len(), count, "{at}");
+        assert_eq!(g.surface.faces().len(), count, "{at}");
         assert_eq!(g.period, Some([0.0, 3.2 / (64.0_f64 - 3.2 * 3.2).sqrt()]));
     }
 }
@@ -87,9 +87,9 @@ fn caps_are_discs_wherever_the_centre_is() {
                 let topology = Topology::new(&g.surface);
                 assert!(topology.components.len() == 1 && topology.components[0].is_disc(), "{}", g.name);
                 assert!(topology.orientation.flip.iter().all(|&flip| !flip), "{}", g.name);
-                assert_eq!(g.exact.as_ref().map(Vec::len), Some(g.surface.positions.len()));
+                assert_eq!(g.exact.as_ref().map(Vec::len), Some(g.surface.positions().len()));
                 // open: nothing lies in the plane of the rim, the lowest pointels
-                let low = g.surface.positions.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
+                let low = g.surface.positions().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
                 assert!(centres(&g).iter().all(|c| c[2] > low + 0.25), "{}", g.name);
             }
         }
@@ -129,8 +129,8 @@ fn exact_coordinates_of_a_cap_are_the_stereographic_ones_of_the_sphere() {
         assert!((q[1].atan2(q[0]) - v.atan2(u)).abs() < 1e-12);
         u.hypot(v) / (0.5 * angle).tan()
     };
-    let first = ratio(g.surface.positions[0], exact[0]);
-    for (&p, &w) in g.surface.positions.iter().zip(exact) {
+    let first = ratio(g.surface.positions()[0], exact[0]);
+    for (&p, &w) in g.surface.positions().iter().zip(exact) {
         assert!((ratio(p, w) / first - 1.0).abs() < 1e-12);
     }
 }

@@ -49,7 +49,7 @@ fn everything() -> Vec<Generated> {
 /// The faces at every edge, as (smaller vertex, larger vertex) → directed uses (forward, backward).
 fn edges(g: &Generated) -> HashMap<(u32, u32), (usize, usize)> {
     let mut edges = HashMap::new();
-    for face in g.surface.faces.iter() {
+    for face in g.surface.faces().iter() {
         for (k, &a) in face.iter().enumerate() {
             let b = face[(k + 1) % face.len()];
             let uses: &mut (usize, usize) = edges.entry((a.min(b), a.max(b))).or_default();
@@ -79,9 +79,9 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 fn negative_and_obtuse(g: &Generated) -> (f64, f64) {
     let mut weights: HashMap<(u32, u32), (f64, usize)> = HashMap::new();
     let mut obtuse = 0;
-    for face in g.surface.faces.iter() {
+    for face in g.surface.faces().iter() {
         let cotangents = [0, 1, 2].map(|k| {
-            let [apex, a, b] = [0, 1, 2].map(|i| g.surface.positions[face[(k + i) % 3] as usize]);
+            let [apex, a, b] = [0, 1, 2].map(|i| g.surface.positions()[face[(k + i) % 3] as usize]);
             let (p, q) = (minus(a, apex), minus(b, apex));
             let normal = cross(p, q);
             dot(p, q) / dot(normal, normal).sqrt()
@@ -95,12 +95,12 @@ fn negative_and_obtuse(g: &Generated) -> (f64, f64) {
     }
     let interior: Vec<f64> = weights.values().filter(|w| w.1 == 2).map(|w| w.0).collect();
     let negative = interior.iter().filter(|&&w| w < 0.0).count();
-    (negative as f64 / interior.len() as f64, obtuse as f64 / g.surface.faces.len() as f64)
+    (negative as f64 / interior.len() as f64, obtuse as f64 / g.surface.faces().len() as f64)
 }
 
 #[test]
 fn grids_have_the_vertices_and_faces_that_their_names_say() {
-    let counts = |name: &str| (make(name).surface.positions.len(), make(name).surface.faces.len());
+    let counts = |name: &str| (make(name).surface.positions().len(), make(name).surface.faces().len());
     assert_eq!(counts("graph:cos+cos?n=33"), (33 * 33, 32 * 32));
     assert_eq!(counts("graph:cos+cos?n=33&mesh=triangle"), (33 * 33, 2 * 32 * 32));
     assert_eq!(counts("sphere?n=32"), (33 * 33, 32 * 32));
@@ -117,10 +117,10 @@ fn grids_have_the_vertices_and_faces_that_their_names_say() {
 #[test]
 fn every_surface_is_an_oriented_manifold_disc_sphere_or_torus() {
     for g in everything() {
-        let (nv, nf) = (g.surface.positions.len(), g.surface.faces.len());
+        let (nv, nf) = (g.surface.positions().len(), g.surface.faces().len());
         let edges = edges(&g);
         let mut used = vec![false; nv];
-        g.surface.faces.corners().iter().for_each(|&v| used[v as usize] = true);
+        g.surface.faces().corners().iter().for_each(|&v| used[v as usize] = true);
         assert!(used.iter().all(|&u| u), "{}: unreferenced vertex", g.name);
         assert!(edges.values().all(|&(a, b)| a <= 1 && b <= 1), "{}: edge used twice one way", g.name);
         let boundary: Vec<_> = edges.iter().filter(|(_, uses)| uses.0 + uses.1 == 1).map(|(&e, _)| e).collect();
@@ -146,8 +146,8 @@ fn every_face_is_positive_and_convex_in_the_exact_coordinates() {
     for g in everything() {
         let Some(exact) = &g.exact else { continue };
         seen += 1;
-        assert_eq!(exact.len(), g.surface.positions.len());
-        for (f, face) in g.surface.faces.iter().enumerate() {
+        assert_eq!(exact.len(), g.surface.positions().len());
+        for (f, face) in g.surface.faces().iter().enumerate() {
             for k in 0..face.len() {
                 let area = twice_area([0, 1, 2].map(|i| exact[face[(k + i) % face.len()] as usize]));
                 assert!(area > 0.0, "{}: face {f} has a corner of area {area}", g.name);
@@ -187,8 +187,8 @@ fn exact_coordinates_fill_the_disc_and_put_the_boundary_on_its_circle() {
 #[test]
 fn no_face_is_degenerate_in_space() {
     for g in everything() {
-        for (f, face) in g.surface.faces.iter().enumerate() {
-            let p: Vec<[f64; 3]> = face.iter().map(|&v| g.surface.positions[v as usize]).collect();
+        for (f, face) in g.surface.faces().iter().enumerate() {
+            let p: Vec<[f64; 3]> = face.iter().map(|&v| g.surface.positions()[v as usize]).collect();
             assert!(p.iter().flatten().all(|x| x.is_finite()), "{}: face {f}", g.name);
             // quads by their diagonals, as ρ sees them
             let (a, b) = if p.len() == 4 {
@@ -209,10 +209,10 @@ fn discrete_faces_become_conformal_under_refinement() {
     let deviation = |g: &Generated| {
         let exact = g.exact.as_ref().unwrap();
         let mut worst: f64 = 0.0;
-        for face in g.surface.faces.iter() {
+        for face in g.surface.faces().iter() {
             let scale = [0, 1, 2].map(|k| {
                 let (a, b) = (face[k] as usize, face[(k + 1) % 3] as usize);
-                let d = minus(g.surface.positions[b], g.surface.positions[a]);
+                let d = minus(g.surface.positions()[b], g.surface.positions()[a]);
                 dot(d, d).sqrt() / (exact[b][0] - exact[a][0]).hypot(exact[b][1] - exact[a][1])
             });
             let (low, high) = scale.iter().fold((f64::MAX, 0.0_f64), |(l, h), &s| (l.min(s), h.max(s)));
@@ -237,13 +237,13 @@ fn graphs_have_the_paper_s_positions() {
     for j in 0..5 {
         for i in 0..5 {
             let (s, t) = (-PI + PI / 2.0 * i as f64, -PI + PI / 2.0 * j as f64);
-            let [x, y, z] = g.surface.positions[5 * j + i];
+            let [x, y, z] = g.surface.positions()[5 * j + i];
             assert!((x - s).abs() + (y - t).abs() + (z - s.cos() - t.cos()).abs() < 1e-14);
         }
     }
-    assert!(make("graph:flat").surface.positions.iter().all(|p| p[2] == 0.0));
+    assert!(make("graph:flat").surface.positions().iter().all(|p| p[2] == 0.0));
     let steep = make("graph:cos+cos?n=5&amplitude=3");
-    assert!((steep.surface.positions[12][2] - 6.0).abs() < 1e-14);
+    assert!((steep.surface.positions()[12][2] - 6.0).abs() < 1e-14);
 }
 
 #[test]
@@ -253,8 +253,8 @@ fn the_torus_looks_outward_and_states_its_period() {
     assert!(re == 0.0 && (im - 0.436_435_8).abs() < 1e-7);
     // signed volume of the polyhedron, positive when faces look outward; tends to 2π² R r²
     let volume = |g: &Generated| -> f64 {
-        let p = |v: u32| g.surface.positions[v as usize];
-        g.surface.faces.iter().map(|f| dot(p(f[0]), cross(p(f[1]), p(f[2]))) / 6.0).sum()
+        let p = |v: u32| g.surface.positions()[v as usize];
+        g.surface.faces().iter().map(|f| dot(p(f[0]), cross(p(f[1]), p(f[2]))) / 6.0).sum()
     };
     let exact = 2.0 * std::f64::consts::PI.powi(2) * 2.0 * 0.64;
     let found = volume(&make("torus?R=2&r=0.8&n=200&mesh=triangle"));
@@ -268,8 +268,8 @@ fn delaunay_circumcircles_are_empty() {
     {
         let g = make(name);
         let points: Vec<[f64; 2]> =
-            g.exact.clone().unwrap_or_else(|| g.surface.positions.iter().map(|p| [p[0], p[1]]).collect());
-        for face in g.surface.faces.iter() {
+            g.exact.clone().unwrap_or_else(|| g.surface.positions().iter().map(|p| [p[0], p[1]]).collect());
+        for face in g.surface.faces().iter() {
             let [a, b, c] = [0, 1, 2].map(|k| points[face[k] as usize]);
             for (v, p) in points.iter().enumerate() {
                 let lift = |q: [f64; 2]| {
@@ -313,7 +313,7 @@ fn jitter_moves_interior_vertices_only_and_by_no_more_than_asked() {
     let (plain, moved) = (make("graph:flat?n=21"), make("graph:flat?n=21&jitter=0.45&seed=3"));
     let cell = PI / 10.0;
     let mut far = 0;
-    for (v, (p, q)) in plain.surface.positions.iter().zip(&moved.surface.positions).enumerate() {
+    for (v, (p, q)) in plain.surface.positions().iter().zip(moved.surface.positions()).enumerate() {
         let edge = [v % 21, v / 21].iter().any(|&i| i == 0 || i == 20);
         let most = (p[0] - q[0]).abs().max((p[1] - q[1]).abs()) / cell;
         assert!(if edge { most == 0.0 } else { most <= 0.45 + 1e-12 }, "vertex {v} moved by {most} cells");
@@ -324,7 +324,7 @@ fn jitter_moves_interior_vertices_only_and_by_no_more_than_asked() {
 
 #[test]
 fn hard_shapes_are_what_they_say() {
-    let squares = |name: &str| make(name).surface.faces.len();
+    let squares = |name: &str| make(name).surface.faces().len();
     // 6 teeth of 6, a back of 11; 2 × 2 squares each
     assert_eq!(squares("comb?teeth=6&length=6&n=2"), 4 * (6 * 6 + 11));
     assert_eq!(squares("comb?teeth=6&length=6&n=2&mesh=triangle"), 8 * (6 * 6 + 11));
@@ -334,19 +334,19 @@ fn hard_shapes_are_what_they_say() {
     assert_eq!(squares("staircase?size=8&n=1"), 2 * 8 * 9);
     // half a sphere of radius 1 and a tube of length 4: 2π (1 + 4)
     let area = |g: &Generated| -> f64 {
-        let p = |v: u32| g.surface.positions[v as usize];
+        let p = |v: u32| g.surface.positions()[v as usize];
         let twice = |f: &[u32]| {
             let normal = cross(minus(p(f[1]), p(f[0])), minus(p(f[2]), p(f[0])));
             dot(normal, normal).sqrt()
         };
-        g.surface.faces.iter().map(|f| 0.5 * twice(f)).sum()
+        g.surface.faces().iter().map(|f| 0.5 * twice(f)).sum()
     };
     let [found, exact] = [area(&make("capsule?n=200&mesh=triangle&length=4")), 10.0 * std::f64::consts::PI];
     assert!((found / exact - 1.0).abs() < 1e-3, "{found} {exact}");
     // a plain of area 4 whose spikes and vertices go up and down
     assert!(area(&make("spikes?mesh=triangle&n=200")) > 6.0);
     let rough = make("rough?n=33&height=0.5&mesh=triangle");
-    let heights: Vec<f64> = rough.surface.positions.iter().map(|p| p[2]).collect();
+    let heights: Vec<f64> = rough.surface.positions().iter().map(|p| p[2]).collect();
     let (low, high) = heights.iter().fold((f64::MAX, f64::MIN), |(l, h), &z| (l.min(z), h.max(z)));
     assert!(low < -0.49 && high > 0.49 && low >= -0.5 && high <= 0.5, "{low} {high}");
     assert!(negative_and_obtuse(&rough).1 > 0.5);
@@ -361,7 +361,7 @@ fn steep_graphs_have_a_third_of_negative_cotan_weights() {
         ("graph:saddle?n=142&mesh=delaunay&amplitude=10&seed=7", 20_164, 0.28),
     ] {
         let g = make(name);
-        assert_eq!(g.surface.positions.len(), vertices);
+        assert_eq!(g.surface.positions().len(), vertices);
         let (negative, obtuse) = negative_and_obtuse(&g);
         assert!(negative > least && obtuse > 0.95, "{name}: {negative} negative, {obtuse} obtuse");
     }
@@ -383,9 +383,9 @@ proptest! {
         let tail = ["mesh=triangle&diagonal=random&jitter=0.45", "mesh=delaunay", "mesh=delaunay&points=random"][mesh];
         let g = make(&format!("sphere?n={n}&{tail}&seed={seed}"));
         let exact = g.exact.as_ref().unwrap();
-        let euler = exact.len() as i64 - edges(&g).len() as i64 + g.surface.faces.len() as i64;
+        let euler = exact.len() as i64 - edges(&g).len() as i64 + g.surface.faces().len() as i64;
         prop_assert_eq!(euler, 1);
-        for face in g.surface.faces.iter() {
+        for face in g.surface.faces().iter() {
             prop_assert!(twice_area([0, 1, 2].map(|k| exact[face[k] as usize])) > 0.0);
         }
     }

@@ -67,7 +67,7 @@ const PARABOLOID: Row = Row {
 #[test]
 fn a_new_surface_is_one_row() {
     let g = generate_from(&[PARABOLOID], "paraboloid?n=3&a=2&mesh=triangle").unwrap();
-    assert_eq!(g.surface.positions[0], [-1.0, -1.0, 4.0]);
+    assert_eq!(g.surface.positions()[0], [-1.0, -1.0, 4.0]);
     assert_eq!(g.name, "paraboloid?n=3&a=2&mesh=triangle&diagonal=alternate&jitter=0&seed=0");
     let error = generate_from(&[PARABOLOID], "sphere").unwrap_err();
     assert!(matches!(&error, GenerateError::UnknownSurface { known, .. } if known == "paraboloid"));
@@ -123,7 +123,7 @@ proptest! {
     ) {
         let query: Vec<String> = pairs.iter().map(|(a, b, c)| format!("{a}{b}{c}")).collect();
         if let Ok(g) = generate(&format!("{}?{}", SURFACES[row].name, query.join("&"))) {
-            prop_assert!(g.surface.positions.iter().flatten().all(|x| x.is_finite()));
+            prop_assert!(g.surface.positions().iter().flatten().all(|x| x.is_finite()));
         }
     }
 }

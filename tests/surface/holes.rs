@@ -29,7 +29,7 @@ fn holes_are_filled_with_faces_of_the_mesh_s_kind() {
         let (disc, record) = opened(name, &s, &filling());
         assert_eq!((record.faces_added, record.holes_filled, disc.filled), (added, filled, added), "{name}");
         assert_eq!(disc.boundary.len(), rim, "{name}: the longest loop stays");
-        assert_eq!(disc.source_faces(), s.faces.len(), "{name}");
+        assert_eq!(disc.source_faces(), s.faces().len(), "{name}");
         sound(name, &disc);
         assert!(!disc.is_cut());
     }
@@ -120,7 +120,7 @@ fn odd_annulus() -> Surface {
     for v in 0..6 {
         let (sin, cos) = (TAU * v as f64 / 3.0).sin_cos();
         let r = if v < 3 { 1.0 } else { 2.0 };
-        s.positions[v] = [r * cos, r * sin, 0.0];
+        s.positions_mut()[v] = [r * cos, r * sin, 0.0];
     }
     s
 }
@@ -128,10 +128,10 @@ fn odd_annulus() -> Surface {
 #[test]
 fn removed_faces_open_a_closed_surface_and_leave_everything_else() {
     for s in [cube(), octahedron(), generated("torus?n=9")] {
-        let torus = s.faces.len() == 81;
+        let torus = s.faces().len() == 81;
         let opening = Opening { cut: torus, ..removing(&[2]) };
         let (disc, record) = opened("without face 2", &s, &opening);
-        assert_eq!((record.faces_removed, disc.faces.len()), (1, s.faces.len() - 1));
+        assert_eq!((record.faces_removed, disc.faces.len()), (1, s.faces().len() - 1));
         assert!(!disc.source_face.contains(&2));
         assert_eq!(disc.is_cut(), torus);
     }
@@ -174,13 +174,13 @@ fn maps_of_cut_and_filled_surfaces_are_measured_where_the_source_is() {
         let distortion = Distortion::new(disc, graph, None, &image);
         assert_eq!(distortion.flipped, 0, "{name}");
         let faces = riemap::distortion::face_maps(disc, graph, &image);
-        assert_eq!(faces.len(), s.faces.len(), "{name}");
+        assert_eq!(faces.len(), s.faces().len(), "{name}");
         // ½ |d02 × d13| of each quad, or of each triangle
         let area: f64 = s
-            .faces
+            .faces()
             .iter()
             .map(|f| {
-                let x: Vec<[f64; 3]> = f.iter().map(|&v| s.positions[v as usize]).collect();
+                let x: Vec<[f64; 3]> = f.iter().map(|&v| s.positions()[v as usize]).collect();
                 let n = x.len();
                 let c = if n == 3 {
                     cross(sub(x[1], x[0]), sub(x[2], x[0]))

@@ -7,6 +7,7 @@ mod common;
 #[path = "../opening/mod.rs"]
 mod opening;
 
+mod checked;
 mod cut;
 mod diagnosis;
 mod digital_shapes;

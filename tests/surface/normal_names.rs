@@ -11,7 +11,7 @@ use riemap::surface::parameters::{Arguments, Parameter};
 use riemap::surface::{Surface, digital::Surfel};
 
 fn attempt(surface: &Surface, digital: Option<&Digital>, spec: &str) -> Result<Vec<[f64; 3]>, NormalError> {
-    let edges = Edges::new(&surface.faces, surface.positions.len());
+    let edges = Edges::new(surface.faces(), surface.positions().len());
     estimate(spec, &Facets::new(surface, &edges, digital)?)
 }
 
@@ -86,7 +86,7 @@ impl NormalEstimator for Turned {
 #[test]
 fn a_new_estimator_is_one_row() {
     let (surface, digital) = digital("digital-ball?R=3");
-    let edges = Edges::new(&surface.faces, surface.positions.len());
+    let edges = Edges::new(surface.faces(), surface.positions().len());
     let facets = Facets::new(&surface, &edges, Some(&digital)).unwrap();
     let spec = NormalSpec::parse_from(&[&Turned], "turned?angle=0.5").unwrap();
     assert_eq!((spec.name(), spec.to_string()), ("turned", "turned?angle=0.5".to_string()));

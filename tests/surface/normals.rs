@@ -11,7 +11,7 @@ use riemap::surface::normals::{Facets, NORMAL_ESTIMATORS, estimate};
 /// The normals of a surface by the estimator of that name.
 #[track_caller]
 fn normals(surface: &Surface, digital: Option<&Digital>, spec: &str) -> Vec<[f64; 3]> {
-    let edges = Edges::new(&surface.faces, surface.positions.len());
+    let edges = Edges::new(surface.faces(), surface.positions().len());
     let facets = Facets::new(surface, &edges, digital);
     facets.and_then(|facets| estimate(spec, &facets)).unwrap_or_else(|error| panic!("{spec}: {error}"))
 }
@@ -70,8 +70,9 @@ fn every_estimator_gives_one_unit_vector_per_face_and_the_same_again() {
         "digital-box?a=5&b=3&c=1",
         "digital-cap?R=9",
     ] {
-        let (mut surface, digital) = digital(name);
-        surface.face_normals = digital.exact_normals.clone();
+        let (surface, digital) = digital(name);
+        let exact = digital.exact_normals.clone().expect("known");
+        let surface = surface.with_face_normals(exact).expect("one for each face");
         for estimator in NORMAL_ESTIMATORS {
             let found = normals(&surface, Some(&digital), estimator.name());
             assert_eq!(found, normals(&surface, Some(&digital), estimator.name()), "{name}, {}", estimator.name());
@@ -315,7 +316,7 @@ fn unit_squares_of_a_file_are_surfels_to_auto() {
     let (surface, digital) = digital("digital-torus?R=6&r=2.4&x=0.3");
     let with_voxels = normals(&surface, Some(&digital), "auto");
     let mut millimetres = surface.clone();
-    millimetres.positions.iter_mut().flatten().for_each(|x| *x *= 0.25);
+    millimetres.positions_mut().iter_mut().flatten().for_each(|x| *x *= 0.25);
     for (n, m) in with_voxels.iter().zip(&normals(&millimetres, None, "auto")) {
         assert!(distance(*n, *m) < 1e-12);
     }
@@ -323,11 +324,11 @@ fn unit_squares_of_a_file_are_surfels_to_auto() {
 
 #[test]
 fn on_other_meshes_auto_takes_the_normals_of_the_file_or_those_of_the_faces() {
-    let mut surface = generate("torus?n=24").unwrap().surface;
+    let surface = generate("torus?n=24").unwrap().surface;
     let own = normals(&surface, None, "auto");
     assert_eq!(own, normals(&surface, None, "surfel"));
     for (f, n) in own.iter().enumerate() {
-        let corner = |k: usize| surface.positions[surface.faces.get(f)[k] as usize];
+        let corner = |k: usize| surface.positions()[surface.faces().get(f)[k] as usize];
         let expected = cross(sub(corner(2), corner(0)), sub(corner(3), corner(1)));
         assert!(dot(*n, expected) > (1.0 - 1e-14) * dot(expected, expected).sqrt());
     }
@@ -337,7 +338,7 @@ fn on_other_meshes_auto_takes_the_normals_of_the_file_or_those_of_the_faces() {
         assert!(found.iter().zip(&own).all(|(&a, &b)| angle(a, b) < 5.0), "{spec}");
     }
     let given: Vec<[f64; 3]> = own.iter().map(|&[x, y, z]| [y, x, z]).collect();
-    surface.face_normals = Some(given.clone());
+    let surface = surface.with_face_normals(given.clone()).expect("one for each face");
     assert_eq!(normals(&surface, None, "auto"), given);
     assert_eq!(normals(&surface, None, "file"), given);
 }

@@ -61,13 +61,13 @@ fn check(surface: &Surface, digital: &Digital) -> Result<i64, TestCaseError> {
     prop_assert!(part.manifold && part.orientable && part.boundary_loops.is_empty(), "{:?}", part);
     prop_assert!(topology.orientation.flip.iter().all(|&flip| !flip));
     prop_assert!(topology.fans.iter().all(|&fans| fans == 1));
-    prop_assert_eq!(surface.faces.len(), digital.surfels.len());
-    prop_assert_eq!(surface.faces.len(), digital.components[digital.component]);
+    prop_assert_eq!(surface.faces().len(), digital.surfels.len());
+    prop_assert_eq!(surface.faces().len(), digital.components[digital.component]);
     let euler = part.euler();
     prop_assert!(euler % 2 == 0 && euler <= 2, "Euler number {}", euler);
-    for (f, (quad, surfel)) in surface.faces.iter().zip(&digital.surfels).enumerate() {
+    for (f, (quad, surfel)) in surface.faces().iter().zip(&digital.surfels).enumerate() {
         // a unit square where it should be, counter-clockwise from outside
-        let p: Vec<[f64; 3]> = quad.iter().map(|&v| surface.positions[v as usize]).collect();
+        let p: Vec<[f64; 3]> = quad.iter().map(|&v| surface.positions()[v as usize]).collect();
         for k in 0..4 {
             let normal = cross(sub(p[(k + 1) % 4], p[k]), sub(p[(k + 2) % 4], p[(k + 1) % 4]));
             prop_assert_eq!(normal, surfel.normal(), "surfel {}", f);
@@ -133,9 +133,9 @@ fn between(solid: &Solid, adjacency: Adjacency) -> Vec<usize> {
 fn one_voxel_is_a_cube_seen_from_outside() {
     for adjacency in BOTH {
         let (surface, digital) = boundary(of(&[[1, 2, 3]]), adjacency, 0).expect("a boundary");
-        assert_eq!((surface.positions.len(), surface.faces.len()), (8, 6));
+        assert_eq!((surface.positions().len(), surface.faces().len()), (8, 6));
         assert_eq!(check(&surface, &digital).unwrap(), 2);
-        assert!(surface.positions.iter().all(|p| sub(*p, [1.0, 2.0, 3.0]).iter().all(|x| x.abs() == 0.5)));
+        assert!(surface.positions().iter().all(|p| sub(*p, [1.0, 2.0, 3.0]).iter().all(|x| x.abs() == 0.5)));
     }
 }
 
@@ -163,10 +163,10 @@ fn cavities_are_components_that_look_into_themselves() {
         for ((surface, digital), volume) in parts.iter().zip([125.0, -1.0, -1.0]) {
             check(surface, digital).unwrap();
             let of_face = |quad: &[u32]| {
-                let p = [0, 1, 2, 3].map(|k| surface.positions[quad[k] as usize]);
+                let p = [0, 1, 2, 3].map(|k| surface.positions()[quad[k] as usize]);
                 (dot(p[0], cross(p[1], p[2])) + dot(p[0], cross(p[2], p[3]))) / 6.0
             };
-            assert!((surface.faces.iter().map(of_face).sum::<f64>() - volume).abs() < 1e-9);
+            assert!((surface.faces().iter().map(of_face).sum::<f64>() - volume).abs() < 1e-9);
         }
     }
 }
@@ -180,7 +180,7 @@ fn two_edges_with_the_same_ends_are_told_apart() {
     for adjacency in BOTH {
         for (surface, digital) in all(&touching, adjacency) {
             check(&surface, &digital).unwrap();
-            stated.push((digital.surfels.len(), surface.faces.twins().is_some()));
+            stated.push((digital.surfels.len(), surface.faces().twins().is_some()));
         }
     }
     // Six joins the two cavities; Eighteen keeps them apart, and nothing is ambiguous then

@@ -3,7 +3,7 @@
 use crate::common::*;
 use riemap::constraint::ConstraintError;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapError, MapOptions, Mapped, run};
+use riemap::map::{Boundary, MapError, MapOptions, Mapped, map_input};
 use riemap::report::{Cost, Report};
 use riemap::solver::Silent;
 use riemap::surface::topology::diagnosis::Severity;
@@ -12,7 +12,7 @@ use riemap::surface::{Surface, Surrogates};
 /// A bumpy square of n × n cells.
 fn bumpy(n: u32, quads: bool) -> Surface {
     let mut grid = quad_grid(n, n, Sides::Free);
-    for (v, p) in grid.positions.iter_mut().enumerate() {
+    for (v, p) in grid.positions_mut().iter_mut().enumerate() {
         let (x, y) = (f64::from(v as u32 % (n + 1)), f64::from(v as u32 / (n + 1)));
         *p = [x, y, 0.3 * (0.5 * x).sin() * (0.4 * y).cos()];
     }
@@ -22,8 +22,8 @@ fn bumpy(n: u32, quads: bool) -> Surface {
 /// The square with the vertices of some cells moved onto those of others: (i, j) to `onto(i, j)`.
 fn collapsed(n: u32, quads: bool, onto: impl Fn(u32, u32) -> (u32, u32)) -> Surface {
     let mut s = bumpy(n, quads);
-    let whole = s.positions.clone();
-    for (v, p) in s.positions.iter_mut().enumerate() {
+    let whole = s.positions().to_vec();
+    for (v, p) in s.positions_mut().iter_mut().enumerate() {
         let (i, j) = onto(v as u32 % (n + 1), v as u32 / (n + 1));
         *p = whole[(j * (n + 1) + i) as usize];
     }
@@ -34,7 +34,7 @@ fn collapsed(n: u32, quads: bool, onto: impl Fn(u32, u32) -> (u32, u32)) -> Surf
 fn joined(n: u32, quads: bool, width: f64) -> Surface {
     let mut s = bumpy(n, quads);
     let middle = f64::from(n / 2);
-    for p in &mut s.positions {
+    for p in s.positions_mut() {
         let x = p[0];
         *p = [if x <= middle { x - middle } else { x - middle - 1.0 + width }, p[1], 0.0];
     }
@@ -69,7 +69,7 @@ fn flat_faces(quads: bool) -> Vec<(&'static str, Surface)> {
 }
 
 fn mapped(what: &str, s: &Surface, options: &MapOptions) -> Result<Mapped, MapError> {
-    run(&Input::of(what.to_owned(), s.clone()), options, &mut Silent)
+    map_input(&Input::of(what.to_owned(), s.clone()), options, &mut Silent)
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn they_are_counted_in_the_report_and_left_out_of_distortion() {
     let s = collapsed(10, false, |i, j| (if i == 6 { 5 } else { i }, j));
     let options = MapOptions { boundary: Boundary::FREE, surrogate: Some(0.01), ..MapOptions::default() };
     let input = Input::of("strip".to_owned(), s);
-    let mapped = run(&input, &options, &mut Silent).unwrap();
+    let mapped = map_input(&input, &options, &mut Silent).unwrap();
     let report = Report::new(&input, &mapped, Cost::default());
     let surrogates = report.input.surrogates.unwrap();
     assert_eq!((surrogates.count, surrogates.shape, surrogates.height), (20, "lifted", 0.01));
@@ -177,7 +177,7 @@ fn quads_with_straight_corners_or_edges_without_length_are_mapped_without_folds(
         vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0], [2.0, 2.0, 0.0]];
     let straight = surface(positions, [[0, 1, 2, 3], [0, 3, 5, 4]]);
     let mut pinched = bumpy(6, true);
-    pinched.positions[24] = pinched.positions[25];
+    pinched.positions_mut()[24] = pinched.positions()[25];
     for (what, s) in [("straight corner", straight), ("edge without length", pinched)] {
         for boundary in [Boundary::CIRCLE, Boundary::FREE] {
             let mapped = mapped(what, &s, &MapOptions { boundary: boundary.clone(), ..MapOptions::default() });

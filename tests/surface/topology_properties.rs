@@ -17,7 +17,7 @@ fn sieve() -> impl Strategy<Value = (Surface, Sides)> {
         let quads = quad_grid(m, n, sides);
         let whole = if split { triangulated(&quads) } else { quads };
         let mut random = Random(seed);
-        let keep: Vec<bool> = (0..whole.faces.len()).map(|_| random.bits() % 8 >= holes).collect();
+        let keep: Vec<bool> = (0..whole.faces().len()).map(|_| random.bits() % 8 >= holes).collect();
         (filtered(&whole, |f| keep[f]), sides)
     })
 }
@@ -131,9 +131,9 @@ proptest! {
                 Sides::Moebius => prop_assert!(genus == i64::from(!part.orientable)),
             }
         }
-        prop_assert_eq!(topology.components.iter().map(|c| c.faces).sum::<usize>(), s.faces.len());
+        prop_assert_eq!(topology.components.iter().map(|c| c.faces).sum::<usize>(), s.faces().len());
         prop_assert_eq!(topology.components.iter().map(|c| c.edges).sum::<usize>(), topology.edges.len());
-        let edges: HashSet<(u32, u32)> = directed(&s.faces).into_keys().map(|(a, b)| (a.min(b), a.max(b))).collect();
+        let edges: HashSet<(u32, u32)> = directed(s.faces()).into_keys().map(|(a, b)| (a.min(b), a.max(b))).collect();
         prop_assert_eq!(edges.len(), topology.edges.len());
     }
 
@@ -144,7 +144,7 @@ proptest! {
         prop_assume!(topology.fans.iter().all(|&k| k <= 1));
         let mut loops: Vec<usize> = topology.components.iter().flat_map(|c| c.boundary_loops.clone()).collect();
         loops.sort_unstable_by(|a, b| b.cmp(a));
-        prop_assert_eq!(loops, walked_loops(&s.faces));
+        prop_assert_eq!(loops, walked_loops(s.faces()));
     }
 
     #[test]
@@ -155,16 +155,16 @@ proptest! {
         let torus = quad_grid(7, 6, Sides::Torus);
         let mut s = connected_sum(&cube(), 0, &cube(), 0);
         for _ in 0..tori {
-            s = connected_sum(&s, s.faces.len() / 2, &torus, 10);
+            s = connected_sum(&s, s.faces().len() / 2, &torus, 10);
         }
         // faces without common vertices, from a torus at the end; without one, the sphere gets one hole at most
         let apart = [0usize, 14, 28];
-        let first = s.faces.len() - if tori > 0 { 41 } else { 10 };
+        let first = s.faces().len() - if tori > 0 { 41 } else { 10 };
         let holes = if tori > 0 { holes.min(3) } else { holes.min(1) };
         let mut random = Random(seed);
         let s = filtered(&s, |f| !apart[..holes].iter().any(|&k| first + k == f));
         let s = if split { triangulated(&s) } else { s };
-        let turned: Vec<usize> = (0..s.faces.len()).filter(|_| random.below(3) == 0).collect();
+        let turned: Vec<usize> = (0..s.faces().len()).filter(|_| random.below(3) == 0).collect();
         let topology = Topology::new(&flipped(&s, turned));
         prop_assert_eq!(topology.components.len(), 1);
         let part = &topology.components[0];
@@ -181,10 +181,10 @@ proptest! {
     ) {
         let mut random = Random(seed);
         // flips in the input, so that there is something to repair
-        let turned: Vec<usize> = (0..s.faces.len()).filter(|_| random.below(4) == 0).collect();
+        let turned: Vec<usize> = (0..s.faces().len()).filter(|_| random.below(4) == 0).collect();
         let s = flipped(&s, turned);
-        let order = random.permutation(s.faces.len());
-        let name = random.permutation(s.positions.len());
+        let order = random.permutation(s.faces().len());
+        let name = random.permutation(s.positions().len());
         let t = shuffled(&s, &order, &name);
         prop_assert_eq!(counts(&Diagnosis::new(&s)), counts(&Diagnosis::new(&t)));
     }
@@ -195,13 +195,13 @@ proptest! {
     ) {
         let mut random = Random(seed);
         let s = grown_disc(arity, steps, &mut random);
-        let turned: Vec<usize> = (0..s.faces.len()).filter(|f| some >> (f % 64) & 1 == 1).collect();
+        let turned: Vec<usize> = (0..s.faces().len()).filter(|f| some >> (f % 64) & 1 == 1).collect();
         let (before, after) = (disc(&s), disc(&flipped(&s, turned)));
         prop_assert_eq!(&before.positions, &after.positions);
         if before.faces == after.faces {
             prop_assert_eq!(&before.boundary, &after.boundary);
         } else {
-            let mirrored = flipped(&s, 0..s.faces.len());
+            let mirrored = flipped(&s, 0..s.faces().len());
             // a face turned over twice starts at the same corner
             prop_assert_eq!(&disc(&mirrored).faces, &after.faces);
             prop_assert_eq!(before.boundary[0], after.boundary[0]);
@@ -217,7 +217,7 @@ proptest! {
     ) {
         let mut random = Random(seed);
         let s = grown_disc(arity, steps, &mut random);
-        let turned: Vec<usize> = (0..s.faces.len()).filter(|_| random.below(2) == 0).collect();
+        let turned: Vec<usize> = (0..s.faces().len()).filter(|_| random.below(2) == 0).collect();
         let disc = disc(&flipped(&s, turned));
         let edges = directed(&disc.faces);
         // one or two corners on every edge, in opposite directions
@@ -255,20 +255,6 @@ proptest! {
         let s = surface(positions, [[0, 1, 2], [2, 1, 3]]);
         if let Ok(disc) = OrientedMesh::new(&s, &Diagnosis::new(&s)) {
             prop_assert!(disc.positions.iter().flatten().all(|t| t.is_finite()));
-        }
-    }
-}
-
-#[test]
-fn faces_of_fewer_than_three_corners_are_reported_and_do_not_panic() {
-    for few in [vec![], vec![0u32], vec![1, 2]] {
-        for faces in [vec![few.clone()], vec![vec![0, 1, 2], few.clone()]] {
-            let diagnosis = Diagnosis::new(&surface(scattered(3), faces));
-            assert!(
-                diagnosis.fatal().any(|f| matches!(f, Finding::Polygons { arities, .. } if arities[0].0 == few.len())),
-                "{few:?}: {:?}",
-                diagnosis.findings
-            );
         }
     }
 }

@@ -35,7 +35,7 @@ impl Target {
         let input = Input::open(source)?;
         let disc = OrientedMesh::new(&input.surface, &input.diagnosis())?;
         // The disc and no more: each of its vertices on a face, in one orientation.
-        let surface = Surface { positions: disc.positions.clone(), faces: disc.faces.clone(), face_normals: None };
+        let surface = Surface { face_normals: None, ..disc.to_surface() };
         let mesh = folder.join("mesh.obj");
         io::write(&mesh, &surface, None, None)?;
         let triangles = match surface.faces.arity() {

@@ -7,7 +7,7 @@ use crate::constraint::Shape;
 use crate::energy::ENERGIES;
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::solver::convex::EDGE_WEIGHTS;
-use crate::solver::{LINEAR_BACKENDS, MINIMISERS, boundary};
+use crate::solver::{LINEAR_SOLVERS, MINIMISERS, boundary};
 use crate::surface::generate::SURFACES;
 use crate::surface::normals::NORMAL_ESTIMATORS;
 
@@ -57,7 +57,7 @@ pub fn run(out: &mut dyn Write) -> Result<()> {
         out,
         "direct backends",
         "(--solver; auto takes the fastest that is exact)",
-        LINEAR_BACKENDS.iter().map(|b| (b.name().to_owned(), b.description().to_owned())),
+        LINEAR_SOLVERS.iter().map(|b| (b.name().to_owned(), b.description().to_owned())),
     )?;
     section(
         out,

@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use crate::app::compare::libigl::{Environment, LibiglError, harmonic, lscm, slim};
 use crate::constraint::{Fixed, spread_points};
 use crate::input::Input;
-use crate::map::{Boundary, Domain, Map, MapError, MapOptions, Mapped, run};
+use crate::map::{Boundary, Domain, Map, MapError, MapOptions, Mapped, map_input};
 use crate::solver::Observer;
 use crate::surface::cut::Opening;
 
@@ -128,7 +128,7 @@ impl Peer {
         // Opens the surface and lays its boundary on the circle.
         let Opening { cut, remove_faces, fill_holes } = opening;
         let options = MapOptions { boundary: Boundary::FIXED, cut, remove_faces, fill_holes, ..MapOptions::default() };
-        let mapped = run(input, &options, watch)?;
+        let mapped = map_input(input, &options, watch)?;
         let Domain { disc, graph, .. } = &mapped.domain;
         let held: Vec<u32> = match self.given {
             Given::Boundary | Given::Start => disc.boundary.clone(),

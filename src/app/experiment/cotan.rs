@@ -55,14 +55,14 @@ impl Task for CotanTask {
         let with_dual =
             |dual: &str| MapOptions { boundary: Boundary::FIXED, dual: dual.to_owned(), ..MapOptions::default() };
         let mut watch = Stopwatch::start();
-        let ours = map::run(&input, &with_dual("circumcentre"), &mut watch)?;
+        let ours = map::map_input(&input, &with_dual("circumcentre"), &mut watch)?;
         let seconds = watch.seconds();
         // What libigl is timed for: matrices and solution.
         let riemap = seconds.assemble + seconds.factor + seconds.solve;
         let flipped = ours.distortion.flipped;
         let residual = ours.map.residual;
         let comparison = compare(&CotanMap { disc: ours.domain.disc, map: ours.map }, &libigl)?;
-        let barycentres = map::run(&input, &with_dual("barycentre"), &mut watch)?;
+        let barycentres = map::map_input(&input, &with_dual("barycentre"), &mut watch)?;
         let libigl = comparison.libigl.seconds_wall;
         Ok(Yield {
             result: json!({

@@ -104,7 +104,7 @@ impl Task for MapTask {
         let traced = !self.figures.convergence.is_empty();
         let mut watch = if traced { Stopwatch::counting() } else { Stopwatch::start() };
         let input = self.surface.open()?;
-        let mapped = map::run(&input, &self.options, &mut watch)?;
+        let mapped = map::map_input(&input, &self.options, &mut watch)?;
         let cost = watch.cost();
         let mut result = untimed(Report::new(&input, &mapped, cost))?;
         let mut timings = serde_json::to_value(cost.seconds)?;

@@ -88,11 +88,11 @@ impl Task for PeerTask {
             }
             None => {
                 let mut options = self.options.clone();
-                let mut mapped = map::run(&input, &options, &mut watch);
+                let mut mapped = map::map_input(&input, &options, &mut watch);
                 // Integral weights do not exist where Re ρ ≤ 0, as circumcentres make it; the paper's do. The record says so.
                 if mapped.as_ref().is_err_and(MapError::is_of_integral_weights) {
                     options.weight = Weight::Unit;
-                    mapped = map::run(&input, &options, &mut watch);
+                    mapped = map::map_input(&input, &options, &mut watch);
                 }
                 let seconds = watch.seconds();
                 (mapped?, Some(options.weight), seconds.assemble + seconds.factor + seconds.solve)

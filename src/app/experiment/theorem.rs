@@ -57,7 +57,7 @@ impl Kind for TheoremKind {
 impl Task for TheoremTask {
     fn run(&self) -> Result<Yield, RunError> {
         let input = self.surface.open()?;
-        let mapped = map::run(&input, &self.options, &mut Silent)?;
+        let mapped = map::map_input(&input, &self.options, &mut Silent)?;
         let (graph, map) = (&mapped.domain.graph, &mapped.map);
         let laplacian =
             ConformalLaplacian::new(graph, || ()).map_err(|error| map::MapError::from(BoundaryError::from(error)))?;

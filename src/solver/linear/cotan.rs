@@ -1,7 +1,7 @@
 use num_complex::Complex64;
 
 use super::laplacian::{Laplacian, solve};
-use super::{LinearBackend, SolveError, Unsuitable};
+use super::{LinearSolver, SolveError, Unsuitable};
 use crate::problem::linear::LinearProblem;
 use crate::solver::Observer;
 
@@ -11,7 +11,7 @@ use crate::solver::Observer;
 /// Needs no sign of ρ: the Laplacian of a triangle mesh is positive definite whatever the signs of its weights.
 pub(super) struct Cotan;
 
-impl LinearBackend for Cotan {
+impl LinearSolver for Cotan {
     fn name(&self) -> &'static str {
         "cotan"
     }

@@ -1,6 +1,6 @@
 use num_complex::Complex64;
 
-use super::{LinearBackend, SolveError, Unsuitable};
+use super::{LinearSolver, SolveError, Unsuitable};
 use crate::laplacian::{Colouring, ConformalLaplacian, LaplacianError};
 use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
@@ -10,7 +10,7 @@ use crate::sparse::Breakdown;
 /// boundary are held, and white ones by adding up `z_f − z_g = iρ (z_j − z_i)` from the one that is held.
 pub(super) struct Laplacian;
 
-impl LinearBackend for Laplacian {
+impl LinearSolver for Laplacian {
     fn name(&self) -> &'static str {
         "laplacian"
     }
@@ -33,7 +33,7 @@ impl LinearBackend for Laplacian {
 
 /// Solves (2) by the conformal Laplacian, in the name of `backend`.
 pub(super) fn solve(
-    backend: &dyn LinearBackend,
+    backend: &dyn LinearSolver,
     problem: &LinearProblem,
     watch: &mut dyn Observer,
 ) -> Result<Vec<Complex64>, SolveError> {

@@ -4,7 +4,7 @@ use faer::sparse::linalg::solvers::{Lu as SparseLu, SymbolicLu};
 use faer::{Col, ColRef};
 use num_complex::Complex64;
 
-use super::{LinearBackend, SolveError, Unsuitable};
+use super::{LinearSolver, SolveError, Unsuitable};
 use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
 use crate::sparse::interop::faer_view;
@@ -12,7 +12,7 @@ use crate::sparse::interop::faer_view;
 /// (2) itself by sparse LU with partial pivoting, where it is square; any sign of Re ρ.
 pub(super) struct Lu;
 
-impl LinearBackend for Lu {
+impl LinearSolver for Lu {
     fn name(&self) -> &'static str {
         "lu"
     }

@@ -1,4 +1,4 @@
-//! Direct solvers. A new one is one file and one row of [`LINEAR_BACKENDS`].
+//! Direct solvers. A new one is one file and one row of [`LINEAR_SOLVERS`].
 
 mod cotan;
 mod laplacian;
@@ -16,7 +16,7 @@ use crate::problem::linear::LinearProblem;
 use crate::sparse::Breakdown;
 
 /// A direct solver of [`LinearProblem`]s.
-pub trait LinearBackend: Sync {
+pub trait LinearSolver: Sync {
     /// Name for `--solver` and the report.
     fn name(&self) -> &'static str;
 
@@ -37,7 +37,7 @@ pub trait LinearBackend: Sync {
 }
 
 /// All direct backends by name.
-pub static LINEAR_BACKENDS: &[&dyn LinearBackend] = &[
+pub static LINEAR_SOLVERS: &[&dyn LinearSolver] = &[
     &cotan::Cotan,
     &laplacian::Laplacian,
     &normal::RealCholesky,
@@ -48,8 +48,8 @@ pub static LINEAR_BACKENDS: &[&dyn LinearBackend] = &[
 ];
 
 /// The direct backend of that name.
-pub fn linear_backend(name: &str) -> Option<&'static dyn LinearBackend> {
-    LINEAR_BACKENDS.iter().copied().find(|b| b.name() == name)
+pub fn linear_solver(name: &str) -> Option<&'static dyn LinearSolver> {
+    LINEAR_SOLVERS.iter().copied().find(|b| b.name() == name)
 }
 
 /// A linear solution and how good it is.
@@ -175,7 +175,7 @@ impl SolveError {
     }
 
     /// What a failed Cholesky factorisation means to the user.
-    fn broken(backend: &dyn LinearBackend, problem: &LinearProblem, reason: Breakdown) -> Self {
+    fn broken(backend: &dyn LinearSolver, problem: &LinearProblem, reason: Breakdown) -> Self {
         let (backend, size) = (backend.name(), problem.elimination.unknowns());
         match reason {
             Breakdown::NotPositiveDefinite => SolveError::NotPositiveDefinite { backend, size },
@@ -198,9 +198,9 @@ pub fn solve_linear(
     watch: &mut dyn Observer,
 ) -> Result<LinearSolution, SolveError> {
     if solver != "auto" {
-        let backend = linear_backend(solver).ok_or_else(|| SolveError::Unknown {
+        let backend = linear_solver(solver).ok_or_else(|| SolveError::Unknown {
             name: solver.to_owned(),
-            known: LINEAR_BACKENDS.iter().map(|b| b.name()).collect::<Vec<_>>().join(", "),
+            known: LINEAR_SOLVERS.iter().map(|b| b.name()).collect::<Vec<_>>().join(", "),
         })?;
         return solve_with(backend, problem, watch);
     }
@@ -220,7 +220,7 @@ pub fn solve_linear(
 ///
 /// Square: the conformal Laplacian where the mesh's boundary is held, real where ρ is; else LU. Least squares: Cholesky of
 /// the normal equations, real where they are, else Hermitian; QR, which does not square the condition number, last.
-pub fn automatic(problem: &LinearProblem) -> &'static [&'static dyn LinearBackend] {
+pub fn automatic(problem: &LinearProblem) -> &'static [&'static dyn LinearSolver] {
     if cotan::Cotan.suits(problem).is_ok() {
         &[&cotan::Cotan, &lu::Lu]
     } else if laplacian::Laplacian.suits(problem).is_ok() {
@@ -239,7 +239,7 @@ pub fn automatic(problem: &LinearProblem) -> &'static [&'static dyn LinearBacken
 /// # Errors
 /// A problem that does not suit, a breakdown, a residual above 1e-8.
 pub fn solve_with(
-    backend: &dyn LinearBackend,
+    backend: &dyn LinearSolver,
     problem: &LinearProblem,
     watch: &mut dyn Observer,
 ) -> Result<LinearSolution, SolveError> {

@@ -4,7 +4,7 @@ use nalgebra_sparse::{CooMatrix, CscMatrix};
 use num_complex::Complex64;
 
 use super::normal::{in_real_columns, pattern, real_normal_equations, real_values, solve_and_refine, usable_weights};
-use super::{LinearBackend, SolveError, Unsuitable};
+use super::{LinearSolver, SolveError, Unsuitable};
 use crate::energy::conformal;
 use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
@@ -12,7 +12,7 @@ use crate::solver::{Observer, Phase};
 /// The real normal equations by nalgebra-sparse's Cholesky, which has no fill-reducing ordering: a row to compare with.
 pub(super) struct NalgebraCholesky;
 
-impl LinearBackend for NalgebraCholesky {
+impl LinearSolver for NalgebraCholesky {
     fn name(&self) -> &'static str {
         "nalgebra-cholesky"
     }

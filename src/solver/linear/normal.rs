@@ -5,7 +5,7 @@
 
 use num_complex::Complex64;
 
-use super::{LinearBackend, SolveError, Unsuitable};
+use super::{LinearSolver, SolveError, Unsuitable};
 use crate::constraint::Elimination;
 use crate::energy::conformal::{self, Weight};
 use crate::problem::linear::LinearProblem;
@@ -100,7 +100,7 @@ pub(super) fn real_normal_equations(problem: &LinearProblem) -> Result<(), Unsui
 /// `D_II z_I = −D_IB z_B` by one real factorisation.
 pub(super) struct RealCholesky;
 
-impl LinearBackend for RealCholesky {
+impl LinearSolver for RealCholesky {
     fn name(&self) -> &'static str {
         "cholesky-real"
     }
@@ -131,7 +131,7 @@ impl LinearBackend for RealCholesky {
 /// `Aᴴ W A` complex Hermitian, for unit weights and for free boundary vertices.
 pub(super) struct HermitianCholesky;
 
-impl LinearBackend for HermitianCholesky {
+impl LinearSolver for HermitianCholesky {
     fn name(&self) -> &'static str {
         "cholesky"
     }
@@ -163,6 +163,6 @@ impl LinearBackend for HermitianCholesky {
 }
 
 /// The weights, or the refusal in the backend's name.
-pub(super) fn usable_weights(backend: &dyn LinearBackend, problem: &LinearProblem) -> Result<Vec<f64>, SolveError> {
+pub(super) fn usable_weights(backend: &dyn LinearSolver, problem: &LinearProblem) -> Result<Vec<f64>, SolveError> {
     problem.weights().map_err(|reason| SolveError::Unsuitable { backend: backend.name(), reason: reason.into() })
 }

@@ -4,7 +4,7 @@ use faer::sparse::linalg::solvers::{Qr as SparseQr, SymbolicQr};
 use num_complex::Complex64;
 
 use super::normal::usable_weights;
-use super::{LinearBackend, SolveError, Unsuitable};
+use super::{LinearSolver, SolveError, Unsuitable};
 use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
 use crate::sparse::interop::faer_view;
@@ -12,7 +12,7 @@ use crate::sparse::interop::faer_view;
 /// `W^½ A Z y = −W^½ A z0` in least squares by sparse QR, which does not square the condition number.
 pub(super) struct Qr;
 
-impl LinearBackend for Qr {
+impl LinearSolver for Qr {
     fn name(&self) -> &'static str {
         "qr"
     }

@@ -74,7 +74,7 @@ fn closest(shape: &(impl Implicit + ?Sized), p: [f64; 3]) -> [f64; 3] {
 /// let solid = digitise(&shape, [[-11.0; 3], [11.0; 3]])?;
 /// let (surface, mut digital) = boundary(solid, Adjacency::Six, 0)?;
 /// digital.exact_normals = Some(exact_normals(&shape, &digital));
-/// assert_eq!(surface.faces.len(), digital.surfels.len());
+/// assert_eq!(surface.faces().len(), digital.surfels.len());
 /// # Ok::<(), riemap::surface::digital::DigitalError>(())
 /// ```
 ///

@@ -19,9 +19,9 @@ use crate::surface::Surface;
 /// cubes.insert([1, 1, 0]);
 /// // They share an edge alone: two cubes apart, or one surface of both.
 /// let (surface, apart) = boundary(cubes.clone(), Adjacency::Six, 0)?;
-/// assert_eq!((apart.components, surface.positions.len()), (vec![6, 6], 8));
+/// assert_eq!((apart.components, surface.positions().len()), (vec![6, 6], 8));
 /// let (surface, joined) = boundary(cubes, Adjacency::Eighteen, 0)?;
-/// assert_eq!((joined.components, surface.positions.len()), (vec![12], 14));
+/// assert_eq!((joined.components, surface.positions().len()), (vec![12], 14));
 /// # Ok::<(), riemap::surface::digital::DigitalError>(())
 /// ```
 ///

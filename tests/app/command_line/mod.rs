@@ -20,7 +20,7 @@ use riemap::constraint::Shape;
 use riemap::energy::ENERGIES;
 use riemap::quad_graph::dual::DUAL_POINTS;
 use riemap::solver::convex::EDGE_WEIGHTS;
-use riemap::solver::{LINEAR_BACKENDS, MINIMISERS};
+use riemap::solver::{LINEAR_SOLVERS, MINIMISERS};
 use riemap::surface::generate::SURFACES;
 use shell::{Shell, hill};
 
@@ -86,7 +86,7 @@ fn every_command_has_help() {
 #[test]
 fn list_names_every_row_of_every_table() {
     let list = Shell::new().done(&["list"]);
-    let names = LINEAR_BACKENDS.iter().map(|b| b.name()).chain(MINIMISERS.iter().map(|b| b.name()));
+    let names = LINEAR_SOLVERS.iter().map(|b| b.name()).chain(MINIMISERS.iter().map(|b| b.name()));
     let names = names.chain(EDGE_WEIGHTS.iter().map(|w| w.name));
     let names = names.chain(ENERGIES.iter().map(|row| row.name));
     let names = names.chain(DUAL_POINTS.iter().map(|d| d.name())).chain(Shape::ALL.iter().map(|s| s.0));

@@ -1,6 +1,6 @@
 //! `--solver`: every backend by its name.
 
-use riemap::solver::LINEAR_BACKENDS;
+use riemap::solver::LINEAR_SOLVERS;
 
 use super::shell::{FIXED, Shell, distance, hill};
 
@@ -19,10 +19,10 @@ fn every_backend_solves_what_suits_it_and_all_agree() {
     let shell = Shell::new();
     shell.write("t.obj", hill(7, 1.0, false));
     shell.write("q.obj", hill(7, 1.0, true));
-    let mut solved = vec![0; LINEAR_BACKENDS.len()];
+    let mut solved = vec![0; LINEAR_SOLVERS.len()];
     for problem in PROBLEMS {
         let reference = shell.uv(problem[0], &problem[1..]);
-        for (backend, solved) in LINEAR_BACKENDS.iter().zip(&mut solved) {
+        for (backend, solved) in LINEAR_SOLVERS.iter().zip(&mut solved) {
             let arguments = [&["map"][..], &FIXED, problem, &["--solver", backend.name(), "-o", "s.obj"]].concat();
             let ran = shell.run(&arguments);
             if ran.code == 1 {
@@ -38,7 +38,7 @@ fn every_backend_solves_what_suits_it_and_all_agree() {
             *solved += 1;
         }
     }
-    for (backend, solved) in LINEAR_BACKENDS.iter().zip(solved) {
+    for (backend, solved) in LINEAR_SOLVERS.iter().zip(solved) {
         assert!(solved > 0, "no problem suits `{}`: add one", backend.name());
     }
 }

@@ -132,7 +132,7 @@ fn maps_of_all_kinds_have_a_checkerboard() {
         ("torus?n=12", Boundary::Periodic),
     ] {
         let input = Input::open(source).unwrap();
-        let mapped = map::run(&input, &MapOptions { boundary, ..MapOptions::default() }, &mut Silent).unwrap();
+        let mapped = map::map_input(&input, &MapOptions { boundary, ..MapOptions::default() }, &mut Silent).unwrap();
         let picture = Pixels::of(&checkerboard(&input, &mapped, Checkerboard::default(), source).unwrap());
         let inked = picture.rgb.chunks(3).filter(|c| *c != PAPER.0).count();
         assert!(inked as f64 > 0.3 * (picture.width * picture.height) as f64, "{source}: {inked}");

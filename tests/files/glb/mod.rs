@@ -13,12 +13,12 @@ use riemap::io::glb::{Affine, Glb, GlbError, Model};
 use riemap::io::{self, Uv, WriteError};
 use riemap::map::{self, Boundary, MapOptions, Mapped};
 use riemap::solver::Silent;
-use riemap::surface::{Faces, Surface};
+use riemap::surface::Faces;
 
 fn written(input: &Input, options: &MapOptions) -> (Mapped, File) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.glb");
-    let mapped = map::run(input, options, &mut Silent).unwrap();
+    let mapped = map::map_input(input, options, &mut Silent).unwrap();
     stage_model(&path, input, &mapped, Checkerboard::default()).unwrap().publish().unwrap();
     (mapped, File::parse(&fs::read(path).unwrap()))
 }
@@ -63,7 +63,7 @@ fn every_triangle_is_a_part_of_its_face_with_the_places_that_the_map_gives() {
                     let same = |c: usize| {
                         let z = image.corner(disc, c);
                         let source = disc.source_vertex[disc.faces.corners()[c] as usize];
-                        let p = input.surface.positions[source as usize];
+                        let p = input.surface.positions()[source as usize];
                         (0..3).all(|k| (positions[v][k] - p[k]).abs() <= near)
                             && (map[v][0] - z.re).abs() <= near_map
                             && (map[v][1] - z.im).abs() <= near_map
@@ -87,11 +87,11 @@ fn a_vertex_is_there_once_where_map_and_light_allow_it_and_in_the_order_of_the_s
     let (input, _, file) = of_name("graph:cos+cos?n=33", Boundary::CIRCLE, false);
     let far = |(p, q): (&[f64; 3], &[f64; 3])| (0..3).map(|k| (p[k] - q[k]).abs()).fold(0.0, f64::max);
     let positions = file.positions();
-    assert_eq!(positions.len(), input.surface.positions.len());
-    assert!(positions.iter().zip(&input.surface.positions).map(far).fold(0.0, f64::max) < 1e-6);
+    assert_eq!(positions.len(), input.surface.positions().len());
+    assert!(positions.iter().zip(input.surface.positions()).map(far).fold(0.0, f64::max) < 1e-6);
     // A surfel is lit by its own normal.
     let (input, mapped, file) = of_name("digital-torus?R=8&r=3.2", Boundary::Periodic, false);
-    assert_eq!(file.positions().len(), input.surface.faces.corners().len());
+    assert_eq!(file.positions().len(), input.surface.faces().corners().len());
     let normals = file.floats::<3>("NORMAL");
     let expected = &mapped.domain.planes.as_ref().unwrap().normals;
     for (k, triangle) in file.triangles().iter().enumerate() {
@@ -156,10 +156,11 @@ fn the_checkerboard_of_a_periodic_map_has_no_seam() {
 fn what_is_far_from_the_origin_loses_nothing() {
     let near = Input::open("graph:cos+cos?n=33").unwrap();
     let moved = |p: &[f64; 3]| [p[0] + 1048576.0, p[1] - 8388608.0, p[2] + 524288.0];
-    let positions = near.surface.positions.iter().map(moved).collect();
-    let far = Input::of("far.obj".to_owned(), Surface { positions, ..near.surface.clone() });
+    let mut surface = near.surface.clone();
+    surface.positions_mut().iter_mut().for_each(|p| *p = moved(p));
+    let far = Input::of("far.obj".to_owned(), surface);
     let (_, file) = written(&far, &MapOptions::default());
-    for (p, q) in file.positions().iter().zip(&far.surface.positions) {
+    for (p, q) in file.positions().iter().zip(far.surface.positions()) {
         // A float of at most 4 has half an ulp of 2⁻²³; floats at 8388608 would be 1 apart.
         assert!((0..3).all(|k| (p[k] - q[k]).abs() <= 2f64.powi(-23)), "{p:?} {q:?}");
     }
@@ -175,7 +176,7 @@ fn a_surface_can_be_written_without_a_picture_or_a_map() {
     let path = folder.path().join("a.GLB");
     let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.5, 1.0, 0.0], [0.5, 2.0, 0.0], [0.0, 1.0, 0.0]];
     let faces: Faces = [[0, 1, 2, 3, 4]].into_iter().collect();
-    let surface = Surface { positions, faces, face_normals: None };
+    let surface = crate::common::surface(positions, faces.iter());
     let uv: Vec<[f64; 2]> = (0..5).map(|k| [f64::from(k), 0.25]).collect();
     io::write(&path, &surface, None, Some(Uv::PerVertex(&uv))).unwrap();
     let file = File::parse(&fs::read(&path).unwrap());
@@ -183,7 +184,7 @@ fn a_surface_can_be_written_without_a_picture_or_a_map() {
     assert_eq!((file.map(), file.floats::<2>("TEXCOORD_0")[1]), (uv, [1.0, 0.75]));
     io::write(&path, &surface, None, None).unwrap();
     let file = File::parse(&fs::read(&path).unwrap());
-    assert_eq!(file.positions(), surface.positions);
+    assert_eq!(file.positions(), surface.positions());
     assert!(file.json.get("images").is_none() && file.json["meshes"][0].get("extras").is_none());
 }
 
@@ -194,7 +195,7 @@ fn a_quad_is_split_along_its_shorter_diagonal() {
     let faces: Faces = [[0, 1, 2, 3]].into_iter().collect();
     for (corner, expected) in [([2.0, 2.0, 0.0], [[1, 2, 3], [1, 3, 0]]), ([0.9, 0.9, 0.0], [[0, 1, 2], [0, 2, 3]])] {
         let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], corner, [0.0, 1.0, 0.0]];
-        io::write(&path, &Surface { positions, faces: faces.clone(), face_normals: None }, None, None).unwrap();
+        io::write(&path, &crate::common::surface(positions, faces.iter()), None, None).unwrap();
         assert_eq!(File::parse(&fs::read(&path).unwrap()).triangles(), expected);
     }
 }
@@ -204,7 +205,7 @@ fn what_a_file_has_no_place_for_is_refused() {
     let faces: Faces = [[0, 1, 2]].into_iter().collect();
     let write = |scale: f64, faces: Faces| {
         let positions = vec![[0.0; 3], [scale, 0.0, 0.0], [0.0, scale, 0.0]];
-        io::write(Path::new("no.glb"), &Surface { positions, faces, face_normals: None }, None, None).unwrap_err()
+        io::write(Path::new("no.glb"), &crate::common::surface(positions, faces.iter()), None, None).unwrap_err()
     };
     for scale in [0.0, 1e-300, 1e300, f64::MAX] {
         let error = write(scale, faces.clone());

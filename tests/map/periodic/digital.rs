@@ -49,7 +49,7 @@ fn surfaces_with_edges_of_four_surfels_have_periods_too() {
     // edges can have the same two ends.
     let octagon = [[2, 1], [3, 1], [4, 2], [5, 3], [5, 4], [4, 5], [3, 6], [2, 6], [1, 5], [0, 4], [0, 3], [1, 2]];
     let (surface, digital) = boundary(necklace(&octagon), Adjacency::Eighteen, 0).unwrap();
-    assert_eq!(digital.components, [surface.faces.len()]);
+    assert_eq!(digital.components, [surface.faces().len()]);
     let disc = closed(&surface);
     let edges = Edges::new(&disc.faces, disc.positions.len());
     assert!(edges.ends.windows(2).any(|pair| pair[0] == pair[1]), "two edges with the same ends");

@@ -126,8 +126,8 @@ fn the_corners_of_the_source_get_the_points_of_their_vertices() {
     for (s, disc, found) in cases() {
         let unfolded = found.unfold(&disc);
         let corners = unfolded.source_corners(&disc, &s);
-        assert_eq!(corners.len(), s.faces.corners().len());
-        for (&point, &vertex) in corners.iter().zip(s.faces.corners()) {
+        assert_eq!(corners.len(), s.faces().corners().len());
+        for (&point, &vertex) in corners.iter().zip(s.faces().corners()) {
             assert_eq!(disc.source_vertex[unfolded.points[point as usize].0 as usize], vertex);
         }
     }

@@ -113,7 +113,7 @@ fn nothing_depends_on_numbering_or_on_the_first_basis() {
             }
             for seed in 0..4 {
                 let mut random = Random(seed);
-                let (order, name) = (random.permutation(s.faces.len()), random.permutation(s.positions.len()));
+                let (order, name) = (random.permutation(s.faces().len()), random.permutation(s.positions().len()));
                 let disc = closed(&shuffled(&s, &order, &name));
                 let other = map(&disc, &graph_of(&disc, dual), weight);
                 assert!((other.tau - first.tau).norm() < 1e-10, "{seed}: {} {}", other.tau, first.tau);
@@ -127,7 +127,7 @@ fn nothing_depends_on_numbering_or_on_the_first_basis() {
 #[test]
 fn seen_from_the_other_side_the_torus_is_its_mirror_image() {
     let s = torus_surface(12, "&mesh=triangle&diagonal=same");
-    let all = 0..s.faces.len();
+    let all = 0..s.faces().len();
     let [there, back] = [s.clone(), flipped(&s, all)].map(|s| {
         let disc = closed(&s);
         map(&disc, &graph_of(&disc, "incentre"), Weight::Integral).tau

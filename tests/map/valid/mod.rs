@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use riemap::constraint::Shape;
 use riemap::input::Input;
-use riemap::map::{Boundary, Ending, Interior, MapOptions, Mapped, Outline, Valid, run};
+use riemap::map::{Boundary, Ending, Interior, MapOptions, Mapped, Outline, Valid, map_input};
 use riemap::solver::{Silent, Status};
 use riemap::surface::Surface;
 use shapes::*;
@@ -39,7 +39,7 @@ fn a_plain_map_that_is_valid_is_kept_bit_for_bit() {
         for boundary in [Boundary::CIRCLE, Boundary::FREE] {
             let of = |valid| {
                 let options = MapOptions { boundary: boundary.clone(), valid, ..MapOptions::default() };
-                run(&Input::open(name).unwrap(), &options, &mut Silent).unwrap().map
+                map_input(&Input::open(name).unwrap(), &options, &mut Silent).unwrap().map
             };
             let (plain, kept) = (of(Valid::Off), of(Valid::Auto));
             assert_eq!((plain.z, plain.provenance), (kept.z, kept.provenance), "{name} {boundary:?}");
@@ -58,7 +58,7 @@ fn what_takes_the_place_of_a_map_that_folds_has_no_more_shear_than_the_harmonic_
     let shapes =
         [("spikes", spikes(16, 20.0)), ("capsule", capsule(24)), ("spiral strip", spiral(120)), ("comb", comb(8, 12))];
     for (what, s) in shapes {
-        let s = if s.faces.arity() == Some(4) { triangulated(&s) } else { s };
+        let s = if s.faces().arity() == Some(4) { triangulated(&s) } else { s };
         let harmonic = MapOptions { boundary: cotan(), ..MapOptions::default() };
         let least = MapOptions { valid: Valid::BestQc, ..MapOptions::default() };
         let [harmonic, ours, least] =
@@ -77,7 +77,7 @@ fn what_takes_the_place_of_a_map_that_folds_has_no_more_shear_than_the_harmonic_
 #[test]
 fn best_qc_takes_the_better_of_the_plain_map_and_the_valid_one() {
     let of = |name: &str, boundary: Boundary, valid| {
-        run(
+        map_input(
             &Input::open(name).unwrap(),
             &MapOptions { boundary: boundary.clone(), valid, ..MapOptions::default() },
             &mut Silent,
@@ -111,7 +111,7 @@ fn a_map_that_is_interrupted_or_cut_short_is_valid_at_any_time() {
     for boundary in [Boundary::CIRCLE, Boundary::FREE] {
         for n in [0, 1, 2, 5, 9, 14, 20, 30] {
             let options = MapOptions { boundary: boundary.clone(), ..MapOptions::default() };
-            let stopped = run(&Input::of("rough".to_owned(), s.clone()), &options, &mut Stopper(n)).unwrap();
+            let stopped = map_input(&Input::of("rough".to_owned(), s.clone()), &options, &mut Stopper(n)).unwrap();
             assert!(stopped.validity.is_locally_one_to_one(), "{boundary:?} stopped after {n}");
             let limited_options = MapOptions { max_iterations: Some(n), ..options };
             let limited = mapped(s.clone(), &limited_options, "rough");
@@ -147,7 +147,7 @@ fn terrible(seed: u64, size: usize, grown: bool) -> Surface {
         true => grown_disc(3, size, &mut random),
         false => triangulated(&quad_grid(2 + (size as u32) % 13, 2 + (size as u32) / 13, Sides::Free)),
     };
-    for p in &mut s.positions {
+    for p in s.positions_mut() {
         let scale = 10f64.powf(3.0 * random.real());
         *p = random.vector().map(|x| scale * x);
     }
@@ -189,7 +189,7 @@ fn every_public_disc_has_a_valid_map() {
         for boundary in [Boundary::CIRCLE, Boundary::FREE] {
             // As far as it comes: long parts converge slowly, and are valid on the way.
             let options = MapOptions { boundary: boundary.clone(), max_iterations: Some(100), ..MapOptions::default() };
-            let mapped = run(&Input::open(path.to_str().unwrap()).unwrap(), &options, &mut Silent).unwrap();
+            let mapped = map_input(&Input::open(path.to_str().unwrap()).unwrap(), &options, &mut Silent).unwrap();
             shows(&format!("{file} {boundary:?}"), &mapped);
             assert!(mapped.validity.is_locally_one_to_one(), "{file} {boundary:?}");
             assert!(boundary.is_free() || mapped.validity.is_one_to_one(), "{file}");

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use riemap::input::Input;
-use riemap::map::{Boundary, FlatOptions, MapOptions, ValidName, run};
+use riemap::map::{Boundary, FlatOptions, MapOptions, ValidName, map_input};
 use riemap::surface::Surface;
 
 use super::shapes::*;
@@ -12,7 +12,7 @@ use crate::common::*;
 /// A flat ring of `turns` turns, slit open and lifted like a ramp: flattened without stretch it lies on itself.
 fn ramp(turns: f64, n: u32) -> Surface {
     let mut s = quad_grid(n, 3, Sides::Free);
-    for (v, p) in s.positions.iter_mut().enumerate() {
+    for (v, p) in s.positions_mut().iter_mut().enumerate() {
         let (i, j) = (v as u32 % (n + 1), v as u32 / (n + 1));
         let (angle, radius) = (turns * TAU * f64::from(i) / f64::from(n), 1.5 - f64::from(j) / 6.0);
         *p = [radius * angle.cos(), radius * angle.sin(), 0.05 * angle];
@@ -62,7 +62,7 @@ fn a_free_map_that_is_stopped_on_its_way_past_itself_does_not_overlap() {
     for n in [0, 1, 5, 10, 20, 40, 60, 80, 120] {
         let boundary = Boundary::Free { lengths: None, overlap: false };
         let options = MapOptions { boundary, ..MapOptions::default() };
-        let stopped = run(&Input::of("ramp".to_owned(), s.clone()), &options, &mut Stopper(n)).unwrap();
+        let stopped = map_input(&Input::of("ramp".to_owned(), s.clone()), &options, &mut Stopper(n)).unwrap();
         assert!(stopped.validity.is_one_to_one(), "stopped after {n}");
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, Mapped, run};
+use riemap::map::{Boundary, MapOptions, Mapped, map_input};
 use riemap::solver::Silent;
 use riemap::surface::Surface;
 
@@ -42,7 +42,7 @@ pub fn spikes(n: u32, height: f64) -> Surface {
     for v in 0..(n + 1) * (n + 1) {
         let (i, j) = (v % (n + 1), v / (n + 1));
         let spike = if i % 4 == 2 && j % 4 == 2 { height } else { 0.0 };
-        grid.positions[v as usize] = [f64::from(i), f64::from(j), spike];
+        grid.positions_mut()[v as usize] = [f64::from(i), f64::from(j), spike];
     }
     grid
 }
@@ -52,7 +52,7 @@ pub fn comb(teeth: u32, length: u32) -> Surface {
     let grid = quad_grid(2 * teeth - 1, length + 1, Sides::Free);
     let across = 2 * teeth;
     let mut s = grid;
-    for (v, p) in s.positions.iter_mut().enumerate() {
+    for (v, p) in s.positions_mut().iter_mut().enumerate() {
         *p = [f64::from(v as u32 % across), f64::from(v as u32 / across), 0.0];
     }
     let kept = filtered(&s, |f| (f as u32) / (2 * teeth - 1) == 0 || ((f as u32) % (2 * teeth - 1)).is_multiple_of(2));
@@ -62,14 +62,14 @@ pub fn comb(teeth: u32, length: u32) -> Surface {
 /// A strip `n` cells long that is wound up in the plane, one cell wide.
 pub fn spiral(n: u32) -> Surface {
     let mut s = quad_grid(n, 1, Sides::Free);
-    for (v, p) in s.positions.iter_mut().enumerate() {
+    for (v, p) in s.positions_mut().iter_mut().enumerate() {
         let (i, j) = (v as u32 % (n + 1), v as u32 / (n + 1));
         let angle = 0.15 * f64::from(i);
         let radius = 5.0 + 0.3 * angle - 0.8 * f64::from(j);
         *p = [radius * angle.cos(), radius * angle.sin(), 0.0];
     }
     // The inner side has the larger j here: seen from above the faces turn right.
-    let all = 0..s.faces.len();
+    let all = 0..s.faces().len();
     triangulated(&flipped(&s, all))
 }
 
@@ -85,13 +85,13 @@ pub fn staircase(n: u32, bump: f64) -> Surface {
         let [x, y] = face.iter().fold([0.0; 2], |m, &v| [m[0] + 0.25 * place(v)[0], m[1] + 0.25 * place(v)[1]]);
         x * x + y * y < 1.0
     };
-    surface(positions.collect(), grid.faces.iter().filter(|face| inside(face)))
+    surface(positions.collect(), grid.faces().iter().filter(|face| inside(face)))
 }
 
 /// A flat grid of triangles whose vertices are anywhere within their cells, and heights to match.
 pub fn rough(n: u32, random: &mut Random) -> Surface {
     let mut s = triangulated(&quad_grid(n, n, Sides::Free));
-    for (v, p) in s.positions.iter_mut().enumerate() {
+    for (v, p) in s.positions_mut().iter_mut().enumerate() {
         let (i, j) = (v as u32 % (n + 1), v as u32 / (n + 1));
         *p = [f64::from(i) + 0.49 * random.real(), f64::from(j) + 0.49 * random.real(), 2.0 * random.real()];
     }
@@ -99,7 +99,7 @@ pub fn rough(n: u32, random: &mut Random) -> Surface {
 }
 
 pub fn mapped(s: Surface, options: &MapOptions, what: &str) -> Mapped {
-    run(&Input::of(what.to_owned(), s), options, &mut Silent).unwrap_or_else(|error| panic!("{what}: {error}"))
+    map_input(&Input::of(what.to_owned(), s), options, &mut Silent).unwrap_or_else(|error| panic!("{what}: {error}"))
 }
 
 pub fn shows(what: &str, mapped: &Mapped) {

@@ -1,7 +1,7 @@
 //! The points that the plain circle map holds, in the map that takes its place.
 
 use riemap::input::Input;
-use riemap::map::{Boundary, MapOptions, PinnedPoints, Valid, run};
+use riemap::map::{Boundary, MapOptions, PinnedPoints, Valid, map_input};
 use riemap::solver::Silent;
 
 use super::shapes::*;
@@ -12,7 +12,7 @@ use crate::common::*;
 fn cap(n: u32, random: &mut Random) -> Input {
     let mut grid = triangulated(&quad_grid(n, n, Sides::Free));
     let mut st: Vec<[f64; 2]> = (0..(n + 1) * (n + 1)).map(|v| [v % (n + 1), v / (n + 1)].map(f64::from)).collect();
-    let faces: Vec<Vec<usize>> = grid.faces.iter().map(|f| f.iter().map(|&v| v as usize).collect()).collect();
+    let faces: Vec<Vec<usize>> = grid.faces().iter().map(|f| f.iter().map(|&v| v as usize).collect()).collect();
     let area = |st: &[[f64; 2]], f: &[usize]| {
         let [a, b, c] = [st[f[0]], st[f[1]], st[f[2]]];
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -33,13 +33,10 @@ fn cap(n: u32, random: &mut Random) -> Input {
         [s * (1.0 - 0.5 * t * t).sqrt(), t * (1.0 - 0.5 * s * s).sqrt()]
     };
     let w: Vec<[f64; 2]> = st.into_iter().map(on_disc).collect();
-    grid.positions = w
-        .iter()
-        .map(|&[x, y]| {
-            let r = x * x + y * y;
-            [2.0 * x / (1.0 + r), 2.0 * y / (1.0 + r), (r - 1.0) / (1.0 + r)]
-        })
-        .collect();
+    for (p, &[x, y]) in grid.positions_mut().iter_mut().zip(&w) {
+        let r = x * x + y * y;
+        *p = [2.0 * x / (1.0 + r), 2.0 * y / (1.0 + r), (r - 1.0) / (1.0 + r)];
+    }
     Input { exact: Some(w), ..Input::of(format!("cap, n = {n}"), grid) }
 }
 
@@ -48,7 +45,7 @@ fn maps_that_replace_folded_ones_have_the_three_points_and_converge_to_the_exact
     let mut random = Random(41);
     let error = |n: u32, random: &mut Random| {
         let input = cap(n, random);
-        let mapped = run(&input, &MapOptions::default(), &mut Silent).unwrap();
+        let mapped = map_input(&input, &MapOptions::default(), &mut Silent).unwrap();
         shows(&input.source, &mapped);
         assert!(mapped.validity.is_one_to_one() && mapped.map.anchored && mapped.map.fixed.len() == 3);
         let exact = input.exact.as_ref().unwrap();
@@ -76,7 +73,7 @@ fn maps_that_replace_folded_ones_have_the_three_points_and_converge_to_the_exact
 #[test]
 fn where_three_points_are_too_much_for_doubles_one_is_held() {
     let spiral = Input::open("spiral?rounds=6&n=2&mesh=triangle").unwrap();
-    let map = run(&spiral, &MapOptions::default(), &mut Silent).unwrap();
+    let map = map_input(&spiral, &MapOptions::default(), &mut Silent).unwrap();
     assert!(map.validity.is_one_to_one() && map.map.provenance.is_repaired());
     assert_eq!(map.map.fixed.len(), 1);
 }

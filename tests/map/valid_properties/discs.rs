@@ -54,7 +54,7 @@ pub fn random_disc(seed: u64, size: usize, topology: Topology, shape: Shape, qua
 
 /// Flips of edges that leave a simplicial complex.
 fn flipped_at_random(s: &Surface, flips: usize, random: &mut Random) -> Surface {
-    let mut faces: Vec<[u32; 3]> = s.faces.iter().map(|f| [f[0], f[1], f[2]]).collect();
+    let mut faces: Vec<[u32; 3]> = s.faces().iter().map(|f| [f[0], f[1], f[2]]).collect();
     let mut face_of: HashMap<[u32; 2], usize> = HashMap::new();
     let join = |face_of: &mut HashMap<[u32; 2], usize>, f: usize, [a, b, c]: [u32; 3]| {
         [[a, b], [b, c], [c, a]].into_iter().for_each(|edge| _ = face_of.insert(edge, f));
@@ -75,7 +75,7 @@ fn flipped_at_random(s: &Surface, flips: usize, random: &mut Random) -> Surface 
         join(&mut face_of, f, faces[f]);
         join(&mut face_of, g, faces[g]);
     }
-    surface(s.positions.clone(), faces)
+    surface(s.positions().to_vec(), faces)
 }
 
 fn stacked(steps: usize, random: &mut Random) -> Surface {
@@ -97,7 +97,7 @@ fn wheel(spokes: usize) -> Surface {
 
 fn place(disc: &mut Surface, columns: usize, shape: Shape, random: &mut Random) {
     let across = columns + 1;
-    for (v, p) in disc.positions.iter_mut().enumerate() {
+    for (v, p) in disc.positions_mut().iter_mut().enumerate() {
         let cell = [(v % across) as f64, (v / across) as f64];
         *p = match shape {
             Shape::Terrible => {
@@ -109,15 +109,15 @@ fn place(disc: &mut Surface, columns: usize, shape: Shape, random: &mut Random) 
     }
     if shape == Shape::Drawn {
         let factor = 10f64.powf(4.5 * (1.0 + random.real()));
-        disc.positions.iter_mut().for_each(|p| p[0] *= factor);
+        disc.positions_mut().iter_mut().for_each(|p| p[0] *= factor);
     }
     if !matches!(shape, Shape::Needles | Shape::Caps | Shape::Collapsed) {
         return;
     }
-    for _ in 0..disc.faces.len() / 8 + 1 {
-        let f = disc.faces.get(random.below(disc.faces.len())).to_vec();
+    for _ in 0..disc.faces().len() / 8 + 1 {
+        let f = disc.faces().get(random.below(disc.faces().len())).to_vec();
         let k = random.below(3);
-        let [a, b, c] = [0, 1, 2].map(|i| disc.positions[f[(k + i) % 3] as usize]);
+        let [a, b, c] = [0, 1, 2].map(|i| disc.positions()[f[(k + i) % 3] as usize]);
         let gap = if shape == Shape::Collapsed { 0.0 } else { 10f64.powf(-6.0 * (1.0 + random.real())) };
         let off = random.vector().map(|x| gap * x);
         let share = match shape {
@@ -126,22 +126,22 @@ fn place(disc: &mut Surface, columns: usize, shape: Shape, random: &mut Random) 
             _ => 0.5 + 0.4 * random.real(),
         };
         // Far enough from each other that no face loses its area to rounding.
-        disc.positions[f[(k + 2) % 3] as usize] = match shape == Shape::Collapsed || crate::common::distance(a, b) > 0.1
-        {
-            true => [0, 1, 2].map(|i| a[i] + share * (b[i] - a[i]) + off[i]),
-            false => c,
-        };
+        disc.positions_mut()[f[(k + 2) % 3] as usize] =
+            match shape == Shape::Collapsed || crate::common::distance(a, b) > 0.1 {
+                true => [0, 1, 2].map(|i| a[i] + share * (b[i] - a[i]) + off[i]),
+                false => c,
+            };
     }
 }
 
 /// Every triangle cut into three quads, one in each corner.
 fn cornered(s: &Surface) -> Surface {
-    let mut positions = s.positions.clone();
+    let mut positions = s.positions().to_vec();
     let mut middle: HashMap<[u32; 2], u32> = HashMap::new();
     let mut faces: Vec<[u32; 4]> = Vec::new();
-    for f in s.faces.iter() {
+    for f in s.faces().iter() {
         let mean = |of: &[u32]| {
-            [0, 1, 2].map(|i| of.iter().map(|&v| s.positions[v as usize][i]).sum::<f64>() / of.len() as f64)
+            [0, 1, 2].map(|i| of.iter().map(|&v| s.positions()[v as usize][i]).sum::<f64>() / of.len() as f64)
         };
         let m = [0, 1, 2].map(|k| {
             let (a, b) = (f[k], f[(k + 1) % 3]);

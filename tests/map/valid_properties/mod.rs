@@ -8,7 +8,7 @@ use discs::{Shape, Topology, random_disc};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use riemap::input::Input;
-use riemap::map::{Boundary, MapError, MapOptions, Mapped, run};
+use riemap::map::{Boundary, MapError, MapOptions, Mapped, map_input};
 use riemap::solver::Silent;
 use riemap::surface::topology::diagnosis::{Diagnosis, Finding};
 use riemap::surface::{Surface, Surrogates};
@@ -29,7 +29,7 @@ fn mapped(s: &Surface, boundary: Boundary, surrogate: Option<f64>, what: &str) -
     // Valid at any time: few iterations show as much as many.
     let options =
         MapOptions { boundary: boundary.clone(), surrogate, max_iterations: Some(60), ..MapOptions::default() };
-    run(&Input::of(what.to_owned(), s.clone()), &options, &mut Silent)
+    map_input(&Input::of(what.to_owned(), s.clone()), &options, &mut Silent)
 }
 
 /// Whether doubles hold the areas of all faces.

@@ -158,9 +158,9 @@ fn energies_are_finite_up_to_the_largest_step_and_infinite_past_it() {
 fn a_face_without_area_is_refused_by_name() {
     let mut mesh = quad_grid(3, 2, Sides::Free);
     // The first face's corner at vertex 1 becomes straight.
-    mesh.positions[0] = [0.0, 0.0, 0.0];
-    mesh.positions[1] = [1.0, 0.0, 0.0];
-    mesh.positions[5] = [2.0, 0.0, 0.0];
+    mesh.positions_mut()[0] = [0.0, 0.0, 0.0];
+    mesh.positions_mut()[1] = [1.0, 0.0, 0.0];
+    mesh.positions_mut()[5] = [2.0, 0.0, 0.0];
     let disc = disc(&mesh);
     let graph = graph_of(&disc, "");
     let case = Case { name: "straight".to_owned(), metric: RestMetric::of_quads(&disc, &graph, None), disc, graph };

@@ -79,7 +79,7 @@ fn energies_see_no_rigid_motion_and_circles_no_rotation() {
 #[test]
 fn h_and_a_do_not_see_black_and_white_vertices_sheared_against_each_other() {
     let mut grid = quad_grid(6, 5, Sides::Free);
-    for (v, p) in grid.positions.iter_mut().enumerate() {
+    for (v, p) in grid.positions_mut().iter_mut().enumerate() {
         *p = [(v % 7) as f64, (v / 7) as f64, 0.0];
     }
     let disc = disc(&grid);

@@ -30,7 +30,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     let watch = if arguments.trace.is_some() { Stopwatch::tracing() } else { Stopwatch::start() };
     let mut progress = Progress::new(watch, arguments.quiet);
     let input = arguments.source.open()?;
-    let mapped = map::run(&input, &options, &mut progress);
+    let mapped = map::map_input(&input, &options, &mut progress);
     progress.clear();
     let mapped = mapped.with_context(|| input.source.clone())?;
     let record = Report::new(&input, &mapped, progress.watch.cost());

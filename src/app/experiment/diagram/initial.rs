@@ -19,7 +19,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
         // What the minimisation begins with is its map after no iteration.
         let boundary = Boundary::Circle { pinned, ordered: false };
         let options = MapOptions { boundary, max_iterations: Some(0), valid: Valid::Off, ..subject.options.clone() };
-        let mapped = map::run(subject.input, &options, &mut Silent)?;
+        let mapped = map::map_input(subject.input, &options, &mut Silent)?;
         if panels.is_empty() {
             panels
                 .push(Panel { title: "interior at the origin".to_owned(), items: mesh(&mapped, &at_origin(&mapped)) });

@@ -17,7 +17,7 @@ const APART: f64 = 0.12;
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
     let options = MapOptions { solver: NAME.to_owned(), valid: Valid::Off, ..subject.options.clone() };
-    let mapped = map::run(subject.input, &options, &mut Silent)?;
+    let mapped = map::map_input(subject.input, &options, &mut Silent)?;
     let (disc, graph, map) = (&mapped.domain.disc, &mapped.domain.graph, &mapped.map);
     let laplacian =
         ConformalLaplacian::new(graph, || ()).map_err(|error| MapError::from(BoundaryError::from(error)))?;

@@ -1,0 +1,73 @@
+use super::periodic::PeriodicMap;
+use super::{Domain, Map};
+use crate::distortion::{Distortion, Image, Validity, mesh_boundary};
+use crate::geometry::polygon::out_of_order;
+use crate::surface::cut::CutRecord;
+use crate::surface::oriented_mesh::OrientedMesh;
+use crate::surface::topology::Component;
+use crate::surface::topology::diagnosis::Finding;
+
+/// A surface and its map, with everything in between that a report or a figure needs.
+#[derive(Clone, Debug)]
+pub struct Mapped {
+    /// Number of vertices of the source, those included that no face uses.
+    pub source_vertices: usize,
+    /// What was found about the surface, none of it fatal.
+    pub findings: Vec<Finding>,
+    /// Its one component.
+    pub component: Component,
+    /// What was done to make it a disc.
+    pub cut: CutRecord,
+    /// The surface as it was mapped, with its quad graph.
+    pub domain: Domain,
+    /// The map.
+    pub map: Map,
+    /// Periodic maps: the periods, and how the faces lie beside each other.
+    pub torus: Option<PeriodicMap>,
+    /// Its distortion.
+    pub distortion: Distortion,
+    /// Whether it is bijective, by exact predicates.
+    pub validity: Validity,
+}
+
+impl Mapped {
+    /// The image of every vertex of the source (`nv × 2`); `None` for vertices that no mapped face uses.
+    ///
+    /// A vertex on a cut has several images, one for each of its copies, and here is the first;
+    /// [`Mapped::texture_coordinates`] has them all.
+    pub fn uv(&self) -> Vec<Option<[f64; 2]>> {
+        let mut uv = vec![None; self.source_vertices];
+        let copies = self.domain.disc.source_vertex.iter().zip(&self.map.z);
+        for (&v, z) in copies.rev().filter(|(v, _)| **v != OrientedMesh::NEW) {
+            uv[v as usize] = Some([z.re, z.im]);
+        }
+        uv
+    }
+
+    /// The same surface with another map, without periods, measured anew.
+    #[must_use]
+    pub fn with(self, map: Map) -> Self {
+        let (distortion, validity) = measure(&self.domain, &map, None);
+        Mapped { map, torus: None, distortion, validity, ..self }
+    }
+
+    /// Where the map puts the corners of faces and quads.
+    pub fn image(&self) -> Image<'_> {
+        image(&self.map, self.torus.as_ref())
+    }
+}
+
+/// The distortion of a map, and whether it is bijective.
+pub(super) fn measure(domain: &Domain, map: &Map, torus: Option<&PeriodicMap>) -> (Distortion, Validity) {
+    let image = image(map, torus);
+    let mut distortion = Distortion::new(&domain.disc, &domain.graph, domain.planes.as_ref(), &image);
+    if map.on_circle {
+        distortion.boundary_out_of_order = Some(out_of_order(&mesh_boundary(&domain.graph, &map.z)));
+    }
+    (distortion, Validity::new(&domain.disc, |c| image.corner(&domain.disc, c)))
+}
+
+/// Where a map puts corners.
+fn image<'a>(map: &'a Map, torus: Option<&'a PeriodicMap>) -> Image<'a> {
+    Image { z: &map.z, cover: torus.map(|torus| (&torus.periods, torus.omega())) }
+}
