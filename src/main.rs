@@ -15,7 +15,7 @@ fn main() -> ExitCode {
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("riemap: error: {}{}", message(&error), cli::advice(&error));
-            if error.is::<cli::Interrupted>() { cli::EXIT_CODE.into() } else { ExitCode::FAILURE }
+            cli::exit_code(&error)
         }
     }
 }

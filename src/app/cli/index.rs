@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 
 use crate::app::experiment::{Config, find_experiments, records, write_page};
 
-use super::run::{Options, load};
+use super::experiments::{Options, load};
 
 /// Writes `index.html` into `results`: `shown`, and every other experiment of the clone that has records there.
 pub fn write_index(mut shown: Vec<Config>, options: &Options, results: &Path, out: &mut dyn Write) -> Result<()> {

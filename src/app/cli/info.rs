@@ -1,13 +1,15 @@
 use std::io::Write;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::Args;
+use serde_json::{Value, json};
 
 use crate::app::cli::advice::of_finding;
+use crate::input::Input;
 use crate::surface::digital::Digital;
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::Component;
-use crate::surface::topology::diagnosis::Severity;
+use crate::surface::topology::diagnosis::{Diagnosis, Finding, Severity};
 
 use super::plural;
 use super::source::Source;
@@ -19,11 +21,20 @@ pub struct Arguments {
     /// List the vertices of the boundary in order, surface on the left (from 0, as --pin and --positions count)
     #[arg(long)]
     boundary: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
 }
 
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     let input = arguments.source.open()?;
     let diagnosis = input.diagnosis();
+    let problems = diagnosis.fatal().count();
+    if arguments.json {
+        serde_json::to_writer_pretty(&mut *out, &as_json(&input, &diagnosis, arguments.boundary))?;
+        writeln!(out)?;
+        return verdict(&input.source, problems);
+    }
     let topology = &diagnosis.topology;
     let faces = &input.surface.faces;
     let kind = match faces.arity() {
@@ -58,12 +69,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "  … and {} more", topology.components.len() - SHOWN)?;
     }
     for finding in &diagnosis.findings {
-        let label = match finding.severity() {
-            Severity::Fatal => "problem",
-            Severity::Repaired => "repaired",
-            Severity::Note => "note",
-        };
-        writeln!(out, "{label}: {finding}\n  → {}", of_finding(finding))?;
+        writeln!(out, "{}: {finding}\n  → {}", label(finding), of_finding(finding))?;
     }
     if arguments.boundary
         && let Ok(disc) = OrientedMesh::new(&input.surface, &diagnosis)
@@ -71,11 +77,65 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
         let vertices = disc.boundary.iter().map(|&v| disc.source_vertex[v as usize].to_string());
         writeln!(out, "boundary: {}", vertices.collect::<Vec<_>>().join(" "))?;
     }
-    match diagnosis.fatal().count() {
+    match problems {
         0 => writeln!(out, "A disc: ready for `riemap map`.")?,
         n => writeln!(out, "Not ready for `riemap map`: {}.", plural(n, "problem", "problems"))?,
     }
+    verdict(&input.source, problems)
+}
+
+/// Fails where the surface cannot be mapped as it is: the exit code is 1 then.
+fn verdict(source: &str, problems: usize) -> Result<()> {
+    if problems > 0 {
+        bail!("{source} cannot be mapped as it is: {}", plural(problems, "problem", "problems"));
+    }
     Ok(())
+}
+
+/// The same facts for programs.
+fn as_json(input: &Input, diagnosis: &Diagnosis, boundary: bool) -> Value {
+    let Diagnosis { topology, findings, .. } = diagnosis;
+    let component = |component: &Component| {
+        json!({
+            "first_face": component.first_face, "vertices": component.vertices, "edges": component.edges,
+            "faces": component.faces, "boundary_loops": component.boundary_loops, "euler": component.euler(),
+            "genus": component.genus(), "orientable": component.orientable, "manifold": component.manifold,
+        })
+    };
+    let finding = |finding: &Finding| {
+        json!({
+            "severity": label(finding), "text": finding.to_string(), "advice": of_finding(finding).to_string(),
+        })
+    };
+    let mut value = json!({
+        "path": input.source,
+        "kind": match (&input.digital, input.surface.faces.arity()) {
+            (Some(_), _) => "digital",
+            (None, Some(3)) => "triangle",
+            (None, Some(4)) => "quad",
+            (None, _) => "polygon",
+        },
+        "vertices": input.surface.positions.len(),
+        "edges": topology.edges.len(),
+        "faces": input.surface.faces.len(),
+        "components": topology.components.iter().map(component).collect::<Vec<_>>(),
+        "findings": findings.iter().map(finding).collect::<Vec<_>>(),
+        "ready": diagnosis.fatal().count() == 0,
+    });
+    if boundary && let Ok(mesh) = OrientedMesh::new(&input.surface, diagnosis) {
+        let vertices: Vec<u32> = mesh.boundary.iter().map(|&v| mesh.source_vertex[v as usize]).collect();
+        value["boundary"] = json!(vertices);
+    }
+    value
+}
+
+/// How severe a finding is, in a word.
+fn label(finding: &Finding) -> &'static str {
+    match finding.severity() {
+        Severity::Fatal => "problem",
+        Severity::Repaired => "repaired",
+        Severity::Note => "note",
+    }
 }
 
 /// The voxels, and which component of their boundary this is.

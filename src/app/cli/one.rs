@@ -8,7 +8,7 @@ use clap::Args;
 
 use crate::app::experiment::{Config, Run, make_one};
 
-use super::run::{Options, load};
+use super::experiments::{Options, load};
 
 /// The name of the command.
 const NAME: &str = "run-one";

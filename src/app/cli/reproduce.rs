@@ -6,8 +6,9 @@ use clap::Args;
 
 use crate::app::experiment::{find_experiments, remove_stale};
 
+use super::experiments::{Options, absent, load};
 use super::index::{experiment_files, name, write_index};
-use super::run::{Options, absent, load, run_all};
+use super::run::run_all;
 
 #[derive(Args)]
 pub struct Arguments {

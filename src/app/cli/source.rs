@@ -15,21 +15,20 @@ pub struct Source {
     /// `graph:cos+cos?n=33`
     #[arg(value_name = "MESH")]
     pub mesh: String,
-    /// Volumes: voxels of larger values are inside [default: 0]
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    /// Voxels of larger values are inside [default: 0]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Volumes")]
     threshold: Option<f64>,
-    /// Raw volumes: their extent in voxels
-    #[arg(long, value_name = "XxYxZ", value_parser = extent)]
+    /// Raw volumes: the extent in voxels
+    #[arg(long, value_name = "XxYxZ", value_parser = extent, help_heading = "Volumes")]
     size: Option<Extent>,
-    /// Raw volumes: what a voxel is, u8 or u16 (little-endian)
-    #[arg(long = "type", value_name = "TYPE", value_parser = by_name::<Sample>)]
+    /// Raw volumes: the type of a voxel, u8 or u16 (little-endian)
+    #[arg(long = "type", value_name = "TYPE", value_parser = by_name::<Sample>, help_heading = "Volumes")]
     sample: Option<Sample>,
-    /// Volumes: interior adjacency, which says what becomes of an edge where four surfels meet: 6, the two inner voxels
-    /// there are apart; 18, they are joined [default: 6]
-    #[arg(long, value_parser = by_name::<Adjacency>)]
+    /// Interior adjacency at an edge where four surfels meet: 6, the two inner voxels are apart; 18, they are joined [default: 6]
+    #[arg(long, value_parser = by_name::<Adjacency>, help_heading = "Volumes")]
     adjacency: Option<Adjacency>,
-    /// Volumes: which component of the boundary, from 0, the one with most surfels [default: 0]
-    #[arg(long, value_name = "K")]
+    /// The component of the boundary, from 0, the one with most surfels [default: 0]
+    #[arg(long, value_name = "K", help_heading = "Volumes")]
     component: Option<usize>,
 }
 

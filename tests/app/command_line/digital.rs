@@ -41,13 +41,13 @@ fn parse(obj: &str) -> Written {
 fn a_volume_is_described_with_the_components_of_its_boundary() {
     let shell = Shell::new();
     shell.write("ring.vol", ring());
-    let all = shell.done(&["info", "ring.vol"]);
+    let all = shell.run(&["info", "ring.vol"]).out;
     for words in
         ["digital surface", "9 voxels in a box of 5 × 3 × 1", "interior adjacency 6", "32, 6 surfels", "genus 1"]
     {
         assert!(all.contains(words), "{words}: {all}");
     }
-    let single = shell.done(&["info", "ring.vol", "--component", "1", "--adjacency", "18"]);
+    let single = shell.run(&["info", "ring.vol", "--component", "1", "--adjacency", "18"]).out;
     assert!(single.contains("6 faces") && single.contains("interior adjacency 18"), "{single}");
 }
 
@@ -69,7 +69,7 @@ fn volumes_that_bound_nothing_and_options_for_other_files_are_refused() {
         let message = shell.refused(&[&["info"], arguments].concat());
         assert!(words.iter().all(|word| message.contains(word)), "{arguments:?}: {message}");
     }
-    let raw = shell.done(&["info", "bytes.raw", "--size", "2x1x1", "--type", "u16"]);
+    let raw = shell.run(&["info", "bytes.raw", "--size", "2x1x1", "--type", "u16"]).out;
     assert!(raw.contains("2 voxels in a box of 2 × 1 × 1"), "{raw}");
 }
 

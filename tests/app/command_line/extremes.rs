@@ -45,7 +45,8 @@ fn maps_do_not_depend_on_the_unit_of_length_and_units_out_of_range_are_refused()
             shell.write("m.obj", hill(6, scale, quads));
             let message = shell.refused(&["map", "m.obj", "-o", "o.obj", "--report", "r.json"]);
             assert!(message.contains("extends over") && message.contains("scale"), "{scale:e}: {message}");
-            assert!(shell.done(&["info", "m.obj"]).contains("Not ready"));
+            let info = shell.run(&["info", "m.obj"]);
+            assert!(info.code == 1 && info.out.contains("Not ready"), "{scale:e}: {}", info.out);
         }
     }
 }
@@ -79,7 +80,7 @@ fn faces_without_area_are_refused_with_advice_and_mapped_by_a_surrogate() {
     shell.write("m.obj", mesh);
     let message = shell.refused(&["map", "m.obj", "-o", "o.obj", "--report", "r.json"]);
     assert!(message.contains("2 faces have no area: face 1") && message.contains("--surrogate"), "{message}");
-    assert!(shell.done(&["info", "m.obj"]).contains("--surrogate"));
+    assert!(shell.run(&["info", "m.obj"]).out.contains("--surrogate"));
     for height in ["--surrogate", "--surrogate=0.3"] {
         let ran = shell.run(&["map", "m.obj", height, "-o", "o.obj", "--report", "r.json"]);
         assert_eq!(ran.code, 0, "{}", ran.err);

@@ -3,6 +3,7 @@
 mod bench;
 mod constraints;
 mod digital;
+mod documentation;
 mod extremes;
 mod nonlinear;
 mod outputs;
@@ -104,7 +105,9 @@ fn info_tells_what_a_surface_is_and_whether_it_can_be_mapped() {
     let shell = Shell::new();
     let say = |content: &str| {
         shell.write("m.obj", content);
-        shell.done(&["info", "m.obj"])
+        let ran = shell.run(&["info", "m.obj"]);
+        assert_eq!(ran.code == 0, !ran.out.contains("Not ready"), "{}", ran.err);
+        ran.out
     };
     let disc = say(&hill(4, 1.0, false));
     for words in ["triangle mesh", "16 vertices", "33 edges", "18 faces", "1 boundary loop of 12 edges", "genus 0"] {

@@ -105,7 +105,7 @@ fn an_end_that_was_set_is_written_and_said_and_one_that_was_not_is_an_error() {
     shell.write("m.obj", hill(7, 1.0, true));
     let arguments = ["map", "m.obj", "--boundary", "free", "--energy", "H + L", "--max-iterations", "2", "-o", "o.obj"];
     let ran = shell.run(&[&arguments[..], &["--report", "r.json"]].concat());
-    assert_eq!(ran.code, 0);
+    assert_eq!(ran.code, 3, "{}", ran.err);
     assert!(ran.err.contains("riemap: warning: not converged after 2 iterations"), "{}", ran.err);
     let report: Value = serde_json::from_str(&shell.read("r.json")).unwrap();
     assert_eq!((&report["solver"]["status"], &report["solver"]["iterations"]), (&"max-iterations".into(), &2.into()));

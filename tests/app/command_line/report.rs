@@ -72,6 +72,7 @@ fn its_values_are_those_of_the_map() {
     ] {
         assert_eq!(number(path), f64::from(value), "{path}");
     }
+    assert_eq!(report["riemap"]["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(report["solver"]["valid"], true);
     assert_eq!(report["distortion"]["boundary_crosses"], false);
     assert_eq!(number("/energy/total"), number("/energy/H"));

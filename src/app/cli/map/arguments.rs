@@ -2,8 +2,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::{Result, bail};
-use clap::Args;
 use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueEnum};
 
 use crate::constraint::Shape;
 use crate::energy::Expression;
@@ -28,115 +28,133 @@ pub struct Arguments {
     #[command(flatten)]
     pub(super) source: Source,
     /// Write the mesh with the map as texture coordinates (.obj, .ply; .glb: to be looked at, with a checkerboard on it)
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(super) output: Option<PathBuf>,
     /// What the boundary does. circle: H + C; free: H + L', its lengths kept; fixed: H, boundary held on --shape;
     /// periodic: H, closed surfaces of genus 1, two periods [default: circle]
-    #[arg(long, value_parser = by_name::<BoundaryName>)]
+    #[arg(long, value_parser = by_name::<BoundaryName>, help_heading = "Boundary and constraints")]
     pub(super) boundary: Option<BoundaryName>,
     /// Cut a surface that is no disc open along short lines; the output then has texture coordinates per corner
-    #[arg(long)]
+    #[arg(long, help_heading = "Surface")]
     pub(super) cut: bool,
     /// Fill holes for the map: all but the longest, with --boundary periodic all; what is put in is not written
-    #[arg(long)]
+    #[arg(long, help_heading = "Surface")]
     pub(super) fill_holes: bool,
     /// Leave a face out (from 0); repeatable
-    #[arg(long, value_name = "F")]
+    #[arg(long, value_name = "F", help_heading = "Surface")]
     pub(super) remove_face: Vec<u32>,
-    /// Map faces without area too, which are refused otherwise: each as if its third vertex were lifted off its longest edge to HEIGHT times
-    /// the edge's length (quads: as a rectangle of these sides). The output keeps them as they are [default HEIGHT: 0.01]
-    #[arg(long, value_name = "HEIGHT", num_args = 0..=1, require_equals = true, default_missing_value = "0.01", value_parser = height)]
+    /// Map faces without area too, which are refused otherwise: each as if its third vertex were
+    /// lifted off its longest edge to HEIGHT times the edge's length (quads: as a rectangle of
+    /// these sides)
+    ///
+    /// The output keeps them as they are [default HEIGHT: 0.01]
+    #[arg(long, value_name = "HEIGHT", num_args = 0..=1, require_equals = true, default_missing_value = "0.01", value_parser = height, help_heading = "Surface")]
     pub(super) surrogate: Option<f64>,
     /// Energy, in place of the one of --boundary: terms H C A L Lb (L' is Lb) MIPS SD with coefficients, as in "H + 0.5 L + A"
-    #[arg(long, value_name = "E", value_parser = Expression::from_str)]
+    #[arg(long, value_name = "E", value_parser = Expression::from_str, help_heading = "Energy")]
     pub(super) energy: Option<Expression>,
     /// What a fixed boundary is laid on, by arc length: circle, square [default: circle]
-    #[arg(long, value_parser = by_name::<Shape>, conflicts_with = "positions")]
+    #[arg(long, value_parser = by_name::<Shape>, conflicts_with = "positions", help_heading = "Boundary and constraints")]
     pub(super) shape: Option<Shape>,
     /// Hold vertices at the places of a file of lines `vertex x y` (vertices from 0), in place of --shape
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Boundary and constraints")]
     pub(super) positions: Option<PathBuf>,
     /// Free maps: the lengths that the boundary edges are to have, one number a line in the order of the boundary (`riemap info
     /// --boundary`), or lines `v w number`; after a first line `factors` multiples of those on the surface
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Boundary and constraints")]
     pub(super) boundary_lengths: Option<PathBuf>,
     /// Hold a vertex (from 0) at a place; repeatable. Beside a fixed boundary; in place of --fix for the circle
-    #[arg(long, value_name = "V=X,Y", value_parser = pin, allow_hyphen_values = true)]
+    #[arg(long, value_name = "V=X,Y", value_parser = pin, allow_hyphen_values = true, help_heading = "Boundary and constraints")]
     pub(super) pin: Vec<Pin>,
     /// Boundary vertices held: whole (least squares), or primal (those of the mesh and one dual vertex: a square system)
     /// [default: whole; with circumcentres primal]
-    #[arg(long, value_name = "WHICH", value_parser = by_name::<Hold>)]
+    #[arg(long, value_name = "WHICH", value_parser = by_name::<Hold>, help_heading = "Boundary and constraints")]
     pub(super) hold: Option<Hold>,
     /// With --boundary fixed: every inner vertex the mean of its neighbours by these weights, in place of H's minimum; see
     /// `riemap list`
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EDGE_WEIGHTS.iter().map(|w| w.name)))]
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EDGE_WEIGHTS.iter().map(|w| w.name)), help_heading = "Boundary and constraints")]
     pub(super) weights: Option<String>,
-    /// A circle or free map that folds is replaced by a valid one of little shear (auto; also a circle map of σ1/σ2 above 2 in the mean), or
-    /// any where the other has less shear (best-qc). Free maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an
+    /// A circle or free map that folds is replaced by a valid one of little shear (auto; also a
+    /// circle map of σ1/σ2 above 2 in the mean), or any where the other has less shear (best-qc)
+    ///
+    /// Free maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an
     /// --energy or pins of one's own do
-    #[arg(long, value_parser = by_name::<ValidName>)]
+    #[arg(long, value_parser = by_name::<ValidName>, help_heading = "Solver")]
     pub(super) valid: Option<ValidName>,
     /// How many boundary points a circle map holds: 3, or 2 as in the paper [default: 3]
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=3))]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=3), help_heading = "Boundary and constraints")]
     pub(super) fix: Option<u8>,
     /// Circle maps: keep the boundary points in order
-    #[arg(long)]
+    #[arg(long, help_heading = "Boundary and constraints")]
     pub(super) keep_order: bool,
     /// What a minimisation begins with: auto (with lengths or areas in the energy the free map, else the circle), circle
     /// (the boundary on a circle by arc length, as in the paper)
-    #[arg(long, default_value = "auto", value_parser = by_name::<Start>)]
+    #[arg(long, default_value = "auto", value_parser = by_name::<Start>, help_heading = "Solver")]
     pub(super) start: Start,
     /// Weights of the energies: integral (converge under refinement), unit (the paper's)
-    #[arg(long, default_value = "integral", value_parser = by_name::<Weight>)]
+    #[arg(long, default_value = "integral", value_parser = by_name::<Weight>, help_heading = "Energy")]
     pub(super) weight: Weight,
     /// Dual point of triangle meshes
-    #[arg(long, default_value = "barycentre", value_parser = PossibleValuesParser::new(DUAL_POINTS.iter().map(|d| d.name())))]
+    #[arg(long, default_value = "barycentre", value_parser = PossibleValuesParser::new(DUAL_POINTS.iter().map(|d| d.name())), help_heading = "Quad graph")]
     pub(super) dual: String,
     /// Dual vertex of boundary edges: midpoint, foot (of the perpendicular from the dual point)
-    #[arg(long, default_value = "midpoint", value_parser = by_name::<BoundaryDual>)]
+    #[arg(long, default_value = "midpoint", value_parser = by_name::<BoundaryDual>, help_heading = "Quad graph")]
     pub(super) boundary_dual: BoundaryDual,
     /// Quad meshes and digital surfaces: take ρ from normals estimated by NAME, with parameters as in "hat?radius=4"; see
     /// `riemap list` [default: digital surfaces auto; meshes none]
-    #[arg(long, value_name = "NAME", value_parser = NormalSpec::from_str, conflicts_with = "rho")]
+    #[arg(long, value_name = "NAME", value_parser = NormalSpec::from_str, conflicts_with = "rho", help_heading = "Quad graph")]
     pub(super) normals: Option<NormalSpec>,
     /// With normals: rest lengths and areas projected on the tangent planes, or those of the surfels (unit)
-    #[arg(long, default_value = "projected", value_parser = by_name::<RestSource>)]
+    #[arg(long, default_value = "projected", value_parser = by_name::<RestSource>, help_heading = "Quad graph")]
     pub(super) rest: RestSource,
     /// What ρ of quad meshes comes from: positions, normals (those of the file, as they are), auto (positions; of digital
     /// surfaces normals that are estimated)
-    #[arg(long, default_value = "auto", value_parser = by_name::<RhoSource>)]
+    #[arg(long, default_value = "auto", value_parser = by_name::<RhoSource>, help_heading = "Quad graph")]
     pub(super) rho: RhoSource,
     /// Backend; see `riemap list`
-    #[arg(long, default_value = "auto", value_parser = PossibleValuesParser::new(solver_names()))]
+    #[arg(long, default_value = "auto", value_parser = PossibleValuesParser::new(solver_names()), help_heading = "Solver")]
     pub(super) solver: String,
     /// Nonlinear maps: converged when the energy's gradient is at most T times that of the start [default: 1e-10]
-    #[arg(long, value_name = "T", value_parser = tolerance)]
+    #[arg(long, value_name = "T", value_parser = tolerance, help_heading = "Solver")]
     pub(super) tolerance: Option<f64>,
     /// Nonlinear maps: stop after N iterations and write what is reached [default: the solver's own number]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help_heading = "Solver")]
     pub(super) max_iterations: Option<usize>,
     /// Write energy, its terms, gradient, step and seconds of every iteration as CSV
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, value_name = "FILE.csv", help_heading = "Output")]
     pub(super) trace: Option<PathBuf>,
     /// Periodic maps: what --output has. conformal: the map, periods 1 and τ; whole: sheared a little (5 % at most) so that
     /// both periods are whole numbers and a repeating texture has no seam
-    #[arg(long, default_value = "conformal", value_parser = by_name::<Tiling>)]
+    #[arg(long, default_value = "conformal", value_parser = by_name::<Tiling>, help_heading = "Output")]
     pub(super) tiling: Tiling,
     /// Write system (2) as a complex matrix in Matrix Market format
-    #[arg(long, value_name = "FILE.mtx")]
+    #[arg(long, value_name = "FILE.mtx", help_heading = "Output")]
     pub(super) system: Option<PathBuf>,
     /// Write all figures of the run as JSON
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     pub(super) report: Option<PathBuf>,
     /// Draw the map, coloured by quasi-conformal error (.png, .svg)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(super) picture: Option<PathBuf>,
     /// Draw the surface, shaded, with the checkerboard that the map lays on it
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png", help_heading = "Output")]
     pub(super) texture: Option<PathBuf>,
+    /// What an interrupted map leaves behind: keep (files that exist stay as they are, nothing is written), write (the
+    /// best map so far is written)
+    #[arg(long, value_name = "WHICH", default_value = "keep", value_enum, help_heading = "Solver")]
+    pub(super) on_interrupt: OnInterrupt,
     /// Print warnings and errors alone
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = "Output")]
     pub(super) quiet: bool,
+}
+
+/// What happens to the outputs of a map that a signal stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum OnInterrupt {
+    /// Nothing is written.
+    Keep,
+    /// The best map so far is written.
+    Write,
 }
 
 impl Arguments {

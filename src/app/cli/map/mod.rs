@@ -7,7 +7,7 @@ mod validity;
 
 use std::io::Write;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 
 use crate::app::cli::advice::of_finding;
 use crate::app::measure::stopwatch::Stopwatch;
@@ -17,8 +17,9 @@ use crate::report::Report;
 use crate::solver::Status;
 
 use super::progress::Progress;
+use super::{Ended, interrupt};
 pub use arguments::Arguments;
-use arguments::{options, without_effect};
+use arguments::{OnInterrupt, options, without_effect};
 use output::{draw, refuse_outputs, write_all};
 use summary::{print, warn};
 
@@ -33,6 +34,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     let mapped = map::map_input(&input, &options, &mut progress);
     progress.clear();
     let mapped = mapped.with_context(|| input.source.clone())?;
+    let interrupted = mapped.map.ending == Ending::Minimised(Status::Interrupted);
+    if interrupted && arguments.on_interrupt == OnInterrupt::Keep {
+        let signal = interrupt::name();
+        return Err(Ended::BySignal(format!("{signal}; nothing was written (--on-interrupt write)")).into());
+    }
     let record = Report::new(&input, &mapped, progress.watch.cost());
 
     for finding in &mapped.findings {
@@ -55,8 +61,14 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
             writeln!(out, "wrote {}", path.display())?;
         }
     }
-    if mapped.map.ending == Ending::Minimised(Status::Interrupted) {
-        bail!("interrupted; the best map so far was written");
+    match mapped.map.ending {
+        Ending::Minimised(Status::Interrupted) => {
+            Err(Ended::BySignal(format!("{}; the best map so far was written", interrupt::name())).into())
+        }
+        // Without a limit of the user's an unconverged map is an error of the library.
+        Ending::Minimised(Status::MaxIterations) if arguments.max_iterations.is_some() => {
+            Err(Ended::AtLimit { iterations: mapped.map.iterations }.into())
+        }
+        _ => Ok(()),
     }
-    Ok(())
 }

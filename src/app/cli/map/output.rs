@@ -2,6 +2,7 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use serde::Serialize;
 
 use crate::app::experiment::{Checkerboard, checkerboard, flat_map, stage_model};
 use crate::app::measure::stopwatch::Traced;
@@ -59,6 +60,20 @@ pub(super) fn refuse_outputs(arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
+/// The report as `--report` writes it.
+#[derive(Serialize)]
+struct WrittenReport<'a> {
+    riemap: Program,
+    #[serde(flatten)]
+    report: &'a Report,
+}
+
+/// The program that made a report.
+#[derive(Serialize)]
+struct Program {
+    version: &'static str,
+}
+
 /// Writes all outputs, or none.
 pub(super) fn write_all(
     arguments: &Arguments,
@@ -82,7 +97,8 @@ pub(super) fn write_all(
         staged.push(stage(path, |out| write_matrix_market(out, &system(graph), &comments))?);
     }
     if let Some(path) = &arguments.report {
-        let json = serde_json::to_string_pretty(record)?;
+        let program = Program { version: env!("CARGO_PKG_VERSION") };
+        let json = serde_json::to_string_pretty(&WrittenReport { riemap: program, report: record })?;
         staged.push(stage(path, |out| writeln!(out, "{json}"))?);
     }
     for (path, bytes) in pictures {
