@@ -1,3 +1,5 @@
+use num_complex::Complex64;
+
 use super::Derivatives;
 use super::triangle_sum::{Density, TriangleSum};
 
@@ -7,6 +9,19 @@ pub struct SymmetricDirichletDensity;
 
 /// SD, `Σ w (σ1² + σ2² + σ1⁻² + σ2⁻² − 4)`.
 pub type SymmetricDirichlet = TriangleSum<SymmetricDirichletDensity>;
+
+impl SymmetricDirichlet {
+    /// The factor s for which SD(s z) is least: `SD(s z) = P s² + Q s⁻² − 4 Σ w`, so `s⁴ = Q/P`.
+    pub fn best_scale(&self, z: &[Complex64]) -> f64 {
+        let (mut p, mut q) = (0.0, 0.0);
+        for (piece, corners) in self.triangles.at(z) {
+            let local = piece.map_of_any(corners);
+            p += piece.weight * local.stretch();
+            q += piece.weight * (local.stretch() / local.j) / local.j;
+        }
+        (q / p).sqrt().sqrt()
+    }
+}
 
 impl Density for SymmetricDirichletDensity {
     const NAME: &'static str = "SD";

@@ -24,7 +24,7 @@ pub trait Density: Sync {
 ///
 /// Unit weights: w = 1 for each face. Integral: w is the area at rest.
 pub struct TriangleSum<D> {
-    triangles: Triangles,
+    pub(super) triangles: Triangles,
     density: std::marker::PhantomData<D>,
 }
 

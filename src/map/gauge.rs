@@ -39,16 +39,18 @@ pub(super) fn held(setup: &Setup, z: &[Complex64]) -> Result<Fixed, MapError> {
     Ok(fixed)
 }
 
-/// Holds what rigid motions leave free where no other gauge does (energies of lengths), or similarities (of angles alone): the first
-/// boundary vertex and the direction to the next one of the mesh, or two boundary vertices opposite each other.
+/// Holds what rigid motions leave free where no other gauge does (energies of lengths), or similarities (of angles alone), at the mesh's
+/// boundary: a vertex and the direction from it to the farthest one, see [`hold_gauge`]; or two vertices opposite each other.
 pub(super) fn hold_mesh_gauge(fixed: &mut Fixed, expression: &Expression, graph: &QuadGraph, z: &[Complex64]) {
     let at = |v: u32| z[v as usize];
     if expression.rows().any(|row| row.metric) {
         let mut mesh = graph.boundary.iter().copied().filter(|&v| !graph.is_dual(v));
-        if let (Some(first), Some(next)) = (mesh.next(), mesh.next()) {
-            fixed.hold(first, at(first));
+        let Some(first) = mesh.next() else { return };
+        let away = |v: u32| (at(v) - at(first)).norm();
+        fixed.hold(first, at(first));
+        if let Some(far) = mesh.max_by(|&v, &w| away(v).total_cmp(&away(w))) {
             // From where the vertex is: then it stays there exactly.
-            fixed.hold_on_line(next, at(next), at(next) + (at(next) - at(first)));
+            fixed.hold_on_line(far, at(far), at(far) + (at(far) - at(first)));
         }
     } else {
         for k in spread_points(graph, 2) {

@@ -52,9 +52,11 @@ impl Setup<'_> {
         options.start == Start::Auto
             && !options.boundary.is_fixed()
             && options.pins.is_empty()
-            && !expression.is_flip_free()
             && !expression.has("C")
-            && (expression.has("A") || expression.has("L"))
+            && match expression.is_flip_free() {
+                true => expression.rows().all(|row| row.flip_free && row.metric),
+                false => expression.has("A") || expression.has("L"),
+            }
     }
 
     /// Whether the exact check accepts the map that puts the vertices of the mesh at `z` as injective as is asked for: free maps may

@@ -45,7 +45,12 @@ impl Objective {
 
     /// ∇E(y) (`m`).
     pub fn gradient(&self, y: &[f64]) -> Vec<f64> {
-        self.freedoms.restrict_gradient(y, &self.gradient_at(&self.freedoms.expand(y)))
+        self.gradient_of_map(y, &self.freedoms.expand(y))
+    }
+
+    /// The derivatives at the map z in the directions that the unknowns have at y (`m`).
+    pub fn gradient_of_map(&self, y: &[f64], z: &[Complex64]) -> Vec<f64> {
+        self.freedoms.restrict_gradient(y, &self.gradient_at(z))
     }
 
     /// ∂E/∂Re z + i ∂E/∂Im z (`nv`).
@@ -171,12 +176,19 @@ impl<'a> HessianAssembly<'a> {
 
     /// The values of ∇²E(y) on the pattern.
     pub fn values(&self, y: &[f64], curvature: Curvature) -> Vec<f64> {
-        let mut values = self.constant.clone();
+        let mut values = Vec::new();
+        self.write_values(y, curvature, &mut values);
+        values
+    }
+
+    /// Writes the values of ∇²E(y) on the pattern to `values`, whose memory is used again.
+    pub fn write_values(&self, y: &[f64], curvature: Curvature, values: &mut Vec<f64>) {
+        values.clone_from(&self.constant);
         let freedoms = &self.objective.freedoms;
         let (z, directions) = (freedoms.expand(y), freedoms.directions(y));
         let terms = self.objective.terms.iter().enumerate();
         for (list, (t, energy)) in terms.filter(|(_, (_, e))| !is_constant(freedoms, e.as_ref())) {
-            self.add(list, *t, energy.as_ref(), (&z, &directions), curvature, &mut values);
+            self.add(list, *t, energy.as_ref(), (&z, &directions), curvature, values);
         }
         if freedoms.slides() {
             // ∂²z/∂θ² = −z. Where the energy draws a vertex outwards that is what keeps its steps short.
@@ -189,7 +201,6 @@ impl<'a> HessianAssembly<'a> {
                 };
             }
         }
-        values
     }
 
     /// The values on the pattern of the matrix that measures steps from y, [`Objective::norm`].

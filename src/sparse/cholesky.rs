@@ -120,14 +120,30 @@ impl<'a> Analysis<'a> {
         values: &[T],
         spare: Option<Cholesky<'_, T>>,
     ) -> Result<Cholesky<'_, T>, Breakdown> {
-        let mut factor = spare.map(|spare| spare.values).unwrap_or_default();
-        factor.clear();
-        factor.try_reserve_exact(self.symbolic.len_val()).map_err(|_| Breakdown::TooLarge)?;
-        factor.resize(self.symbolic.len_val(), faer::traits::math_utils::zero());
+        let mut factor =
+            Cholesky { symbolic: &self.symbolic, values: spare.map(|spare| spare.values).unwrap_or_default() };
+        self.refactorise(values, &mut factor)?;
+        Ok(factor)
+    }
+
+    /// Memory for [`Analysis::refactorise`].
+    pub fn unfactorised<T: ComplexField>(&self) -> Cholesky<'_, T> {
+        Cholesky { symbolic: &self.symbolic, values: Vec::new() }
+    }
+
+    /// Factorises the matrix with these values on the pattern in the memory of `factor`, which is kept on failure too.
+    ///
+    /// # Errors
+    /// A pivot that is not positive; lack of memory.
+    pub fn refactorise<T: ComplexField>(&self, values: &[T], factor: &mut Cholesky<'_, T>) -> Result<(), Breakdown> {
+        let length = self.symbolic.len_val();
+        factor.values.try_reserve_exact(length.saturating_sub(factor.values.len())).map_err(|_| Breakdown::TooLarge)?;
+        // What is there already is overwritten.
+        factor.values.resize(length, faer::traits::math_utils::zero());
         let scratch = self.symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| Breakdown::TooLarge)?;
         let factorised = self.symbolic.factorize_numeric_llt(
-            &mut factor,
+            &mut factor.values,
             SparseColMatRef::new(view(self.columns), values),
             Side::Lower,
             Default::default(),
@@ -136,7 +152,7 @@ impl<'a> Analysis<'a> {
             Default::default(),
         );
         match factorised {
-            Ok(_) => Ok(Cholesky { symbolic: &self.symbolic, values: factor }),
+            Ok(_) => Ok(()),
             Err(LltError::NonPositivePivot { .. }) => Err(Breakdown::NotPositiveDefinite),
         }
     }

@@ -10,6 +10,7 @@ mod convergence;
 mod crowding;
 mod digital_maps;
 mod flip_free_maps;
+mod isometric;
 mod near_folds;
 mod nonlinear_maps;
 mod periodic;

@@ -193,11 +193,14 @@ pub(super) fn start_gradient_norm(objective: &Objective, start: &[f64]) -> Resul
 }
 
 /// What the gradient of a start far from the minimum might be, times 10⁻⁶: its own gradient is no measure where the start
-/// is the minimum and the gradient mere rounding. Probed at the start scaled by 1.1; 0 where the energy is not finite there.
+/// is the minimum and the gradient mere rounding. Probed at the start scaled by 1.1, the larger one of the unknowns alone and of the whole
+/// map: the energy may be infinite at the first, and see nothing at the second. 0 where it is finite at neither.
 fn gradient_of_a_start(objective: &Objective, start: &[f64]) -> f64 {
-    let probe: Vec<f64> = start.iter().map(|y| 1.1 * y).collect();
-    let gradient_norm = norm(&objective.gradient(&probe));
-    if gradient_norm.is_finite() && objective.value(&probe).is_finite() { 1e-6 * gradient_norm } else { 0.0 }
+    let unknowns: Vec<f64> = start.iter().map(|y| 1.1 * y).collect();
+    let alone = if objective.value(&unknowns).is_finite() { norm(&objective.gradient(&unknowns)) } else { 0.0 };
+    let map: Vec<_> = objective.freedoms.expand(start).iter().map(|z| 1.1 * z).collect();
+    let whole = norm(&objective.gradient_of_map(start, &map));
+    1e-6 * [alone, whole].into_iter().filter(|norm| norm.is_finite()).fold(0.0, f64::max)
 }
 
 /// Runs `solver` from `start` until the rule says stop.

@@ -8,11 +8,12 @@ use crate::problem::nonlinear::{HessianAssembly, Objective};
 use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Breakdown, Cholesky};
 
-/// Newton's method with backtracking, `∇²E p = −∇E` by sparse Cholesky, the pattern analysed once.
+/// Newton's method with a line search, `∇²E p = −∇E` by sparse Cholesky, the pattern analysed once.
 ///
 /// The Hessian is the exact one wherever that is positive definite; elsewhere it is drawn towards its positive semi-definite model until
-/// it is: with the model all the way it takes hundreds of steps where the true one takes ten. A step ends short of where the energy is no longer finite, and is
-/// shortened until the energy falls: where it is +∞ on maps that fold, every iterate is one without folds.
+/// it is: with the model all the way it takes hundreds of steps where the true one takes ten. A step ends short of where the energy is
+/// no longer finite, and is shortened until the energy falls: where it is +∞ on maps with flipped faces, no iterate has any. It is
+/// lengthened while the energy goes on falling: next to such a barrier, where E is like x⁻², a step takes x to 4x/3 only.
 pub struct Newton {
     /// Converged too when the next step promises to gain less than this share of E, whatever the gradient; 0: never. Unlike the
     /// gradient it does not depend on how large the parts of a map are.
@@ -31,8 +32,11 @@ const SUFFICIENT: f64 = 1e-4;
 const HALVINGS: i32 = 60;
 
 /// How much of what the Hessian lacks to its definite model is added, in turn, until the matrix is definite: a little of it is enough near a
-/// minimum, and all of it overstates the curvature.
-const TOWARDS_MODEL: [f64; 3] = [0.1, 0.3, 1.0];
+/// minimum, and all of it overstates the curvature. A step begins with the share before the one that the last step needed.
+const TOWARDS_MODEL: [f64; 4] = [0.0, 0.1, 0.3, 1.0];
+
+/// A full step is lengthened where this share of the slope is left at its end; none would be if E were quadratic.
+const STEEP: f64 = 0.25;
 
 /// Shares of its diagonal that are added to the model, in turn, until it is definite to rounding.
 const DAMPING: [f64; 3] = [1e-12, 1e-9, 1e-6];
@@ -68,7 +72,11 @@ impl Minimiser for Newton {
             analysis: &analysis,
             smallest_gain: self.smallest_gain,
             has_gained_all: false,
-            factor: None,
+            factor: analysis.unfactorised(),
+            share: 0,
+            exact: Vec::new(),
+            model: Vec::new(),
+            blend: Vec::new(),
         };
         let limits = Limits { max_iterations: self.default_max_iterations(), stalled: 3 };
         run(self.name(), solver, objective, start, rule, limits, watch)
@@ -81,39 +89,61 @@ struct Backtracking<'a> {
     analysis: &'a Analysis<'a>,
     smallest_gain: f64,
     has_gained_all: bool,
-    factor: Option<Cholesky<'a, f64>>,
+    factor: Cholesky<'a, f64>,
+    /// The place in [`TOWARDS_MODEL`] of the share that the last step needed.
+    share: usize,
+    /// Values of the Hessian, of its model, and of what is between them.
+    exact: Vec<f64>,
+    model: Vec<f64>,
+    blend: Vec<f64>,
 }
 
-impl<'a> Backtracking<'a> {
+/// The end of a step of t times the direction.
+struct End {
+    t: f64,
+    y: Vec<f64>,
+    energy: f64,
+    gradient: Vec<f64>,
+}
+
+impl Backtracking<'_> {
     /// −B⁻¹ g, B the Hessian or its model.
     fn direction(&mut self, y: &[f64], g: &[f64]) -> Result<Vec<f64>, Breakdown> {
-        let factor = self.factorise(y)?;
+        self.factorise(y)?;
         let mut p: Vec<f64> = g.iter().map(|g| -g).collect();
-        factor.solve_in_place(&mut p);
-        self.factor = Some(factor);
+        self.factor.solve_in_place(&mut p);
         Ok(p)
     }
 
-    fn factorise(&mut self, y: &[f64]) -> Result<Cholesky<'a, f64>, Breakdown> {
-        let exact = self.assembly.values(y, Curvature::Exact);
-        match self.analysis.factorise(&exact, self.factor.take()) {
-            Err(Breakdown::NotPositiveDefinite) => {}
-            factor => return factor,
-        }
-        let model = self.assembly.values(y, Curvature::GaussNewton);
-        for share in TOWARDS_MODEL {
-            let blend: Vec<f64> = exact.iter().zip(&model).map(|(e, m)| e + share * (m - e)).collect();
-            match self.analysis.factorise(&blend, None) {
+    fn factorise(&mut self, y: &[f64]) -> Result<(), Breakdown> {
+        let Backtracking { assembly, analysis, factor, exact, model, blend, .. } = self;
+        assembly.write_values(y, Curvature::Exact, exact);
+        let first = self.share.saturating_sub(1);
+        for (k, share) in TOWARDS_MODEL.into_iter().enumerate().skip(first) {
+            if k == first.max(1) {
+                assembly.write_values(y, Curvature::GaussNewton, model);
+            }
+            let values = if k == 0 {
+                &*exact
+            } else {
+                blend.clear();
+                blend.extend(exact.iter().zip(&*model).map(|(e, m)| e + share * (m - e)));
+                &*blend
+            };
+            match analysis.refactorise(values, factor) {
                 Err(Breakdown::NotPositiveDefinite) => {}
-                factor => return factor,
+                done => {
+                    self.share = k;
+                    return done;
+                }
             }
         }
         for share in DAMPING {
-            let mut damped = model.clone();
-            add_damping(self.assembly.columns(), &mut damped, share);
-            match self.analysis.factorise(&damped, None) {
+            blend.clone_from(model);
+            add_damping(assembly.columns(), blend, share);
+            match analysis.refactorise(blend, factor) {
                 Err(Breakdown::NotPositiveDefinite) => {}
-                factor => return factor,
+                done => return done,
             }
         }
         Err(Breakdown::NotPositiveDefinite)
@@ -141,20 +171,36 @@ impl<'a> Solver<Target<'a>, Iterate> for Backtracking<'_> {
         let slope = dot(&g, &p);
         // Half of it is what the model gains.
         self.has_gained_all = -0.5 * slope <= self.smallest_gain * here.abs();
-        let longest = (LARGEST_SHARE * self.objective.largest_step(&y, &p)).min(1.0);
-        for t in (0..HALVINGS).map(|k| longest * 0.5f64.powi(k)) {
-            let next: Vec<f64> = y.iter().zip(&p).map(|(y, p)| y + t * p).collect();
+        let longest = LARGEST_SHARE * self.objective.largest_step(&y, &p);
+        // That of a sum of so many terms.
+        let rounding = f64::EPSILON * (y.len() as f64).sqrt() * here.abs();
+        let along = |t: f64| -> Vec<f64> { y.iter().zip(&p).map(|(y, p)| y + t * p).collect() };
+        for t in (0..HALVINGS).map(|k| longest.min(1.0) * 0.5f64.powi(k)) {
+            let next = along(t);
             let there = problem.cost(&next)?;
-            if -t * slope <= f64::EPSILON * here.abs() {
+            if -t * slope <= rounding {
                 // The energy can no longer tell which of the two is lower; the gradient can.
                 let gradient = problem.gradient(&next)?;
-                let better = there.is_finite() && dot(&gradient, &gradient) < dot(&g, &g);
-                let (y, cost, g) = if better { (next, there, gradient) } else { (y, here, g) };
-                return Ok((state.param(y).cost(cost).gradient(g), None));
+                if there.is_finite() && dot(&gradient, &gradient) < dot(&g, &g) {
+                    return Ok((state.param(next).cost(there).gradient(gradient), None));
+                }
+            }
+            if -t * slope <= f64::EPSILON * here.abs() {
+                break;
             }
             if there <= here + SUFFICIENT * t * slope {
                 let gradient = problem.gradient(&next)?;
-                return Ok((state.param(next).cost(there).gradient(gradient), None));
+                let mut end = End { t, y: next, energy: there, gradient };
+                while t >= 1.0 && 2.0 * end.t <= longest && dot(&end.gradient, &p) <= STEEP * slope {
+                    let farther = along(2.0 * end.t);
+                    let energy = problem.cost(&farther)?;
+                    if energy >= end.energy {
+                        break;
+                    }
+                    let gradient = problem.gradient(&farther)?;
+                    end = End { t: 2.0 * end.t, y: farther, energy, gradient };
+                }
+                return Ok((state.param(end.y).cost(end.energy).gradient(end.gradient), None));
             }
         }
         Ok((state.param(y).cost(here).gradient(g), None))

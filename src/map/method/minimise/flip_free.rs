@@ -4,15 +4,30 @@
 use num_complex::Complex64;
 
 use crate::constraint::{Fixed, on_circle};
-use crate::energy::Energy;
 use crate::energy::conformal::Weight;
+use crate::energy::{Energy, Rest, SymmetricDirichlet};
 use crate::map::setup::Setup;
 use crate::map::{Boundary, MapError};
 use crate::quad_graph::metric::RestMetric;
 use crate::solver::Observer;
 
+/// `z` of the best size, where it has no flipped face; else the map of [`start`].
+pub(super) fn start_from(
+    setup: &Setup,
+    metric: &RestMetric,
+    mut z: Vec<Complex64>,
+    watch: &mut dyn Observer,
+) -> Result<Vec<Complex64>, MapError> {
+    if !setup.domain.folded(&z).is_empty() {
+        return start(setup, metric, watch);
+    }
+    let size = size(setup, metric, &z)?;
+    z.iter_mut().for_each(|z| *z *= size);
+    Ok(z)
+}
+
 /// A map without flipped faces: every inner vertex a mean of its neighbours, the boundary where a fixed one is held, else on a circle by
-/// arc length between the points that are held; of the surface's area where the energy sees lengths or areas, of radius 1 where it does not.
+/// arc length between the points that are held; of the best size where the energy sees lengths or areas, of radius 1 where it does not.
 pub(super) fn start(setup: &Setup, metric: &RestMetric, watch: &mut dyn Observer) -> Result<Vec<Complex64>, MapError> {
     let Setup { options, domain, expression, normalisation } = setup;
     let graph = &domain.graph;
@@ -23,10 +38,23 @@ pub(super) fn start(setup: &Setup, metric: &RestMetric, watch: &mut dyn Observer
     let z = domain.convex_start(&fixed, &|_| true, watch)?;
     let mut z = domain.with_dual_vertices(z, &fixed);
     if !options.boundary.is_fixed() && !expression.has("C") && expression.rows().any(|row| row.metric) {
-        let scale = (metric.surface_area() / domain.image_area(&z)).sqrt();
-        z.iter_mut().for_each(|z| *z *= scale);
+        let size = size(setup, metric, &z)?;
+        z.iter_mut().for_each(|z| *z *= size);
     }
     Ok(z)
+}
+
+/// The factor that gives a map the least SD where that is the only energy of lengths, else the surface's area.
+fn size(setup: &Setup, metric: &RestMetric, z: &[Complex64]) -> Result<f64, MapError> {
+    let Setup { options, domain, expression, .. } = setup;
+    if expression.rows().filter(|row| row.metric).all(|row| row.name == "SD") {
+        let rest = Rest { graph: &domain.graph, metric, weight: options.weight, held: &[] };
+        let size = SymmetricDirichlet::new(rest)?.best_scale(z);
+        if size.is_finite() && size > 0.0 {
+            return Ok(size);
+        }
+    }
+    Ok((metric.surface_area() / domain.image_area(z)).sqrt())
 }
 
 /// The factor on energies that see shapes alone, and weigh them by areas at rest: what the image's area is to that of the surface, so that

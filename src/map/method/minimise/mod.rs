@@ -10,10 +10,12 @@ use num_complex::Complex64;
 
 use super::Attempt;
 use crate::constraint::{Fixed, float_white_back, hold_gauge, on_circle, turn_back};
+use crate::energy::Expression;
 use crate::map::gauge::held;
 use crate::map::setup::Setup;
 use crate::map::{Ending, Map, MapError, MapOptions};
 use crate::problem::linear::LinearProblem;
+use crate::solver::minimise::Newton;
 use crate::solver::minimise::smallest_singular_value;
 use crate::solver::{MINIMISERS, Minimiser, Minimum, Observer, Silent, Status, StopRule, minimiser, solve_linear};
 use flip_free::hold_unseen;
@@ -46,10 +48,11 @@ pub(in crate::map) fn solve(
     let Setup { options, domain, expression, normalisation } = setup;
     let graph = &domain.graph;
     let circle = setup.is_circle();
-    let solver = choose(&options.solver)?;
+    let solver = choose(&options.solver, expression)?;
     let metric = domain.rest_metric(options)?;
     let flip_free = expression.is_flip_free();
     let first = match start {
+        Some(z) if flip_free => flip_free::start_from(setup, &metric, z, watch)?,
         Some(z) => z,
         None if flip_free => flip_free::start(setup, &metric, watch)?,
         None => initial(setup)?,
@@ -122,9 +125,12 @@ pub(in crate::map) fn solve(
     }))
 }
 
-fn choose(name: &str) -> Result<&'static dyn Minimiser, MapError> {
+/// The minimiser of that name. `auto` is Newton's method for sums of energies over triangles, whose Hessians have their positive parts in
+/// closed form, and Levenberg–Marquardt for sums of squares.
+fn choose(name: &str, expression: &Expression) -> Result<&'static dyn Minimiser, MapError> {
     if name == "auto" {
-        return Ok(MINIMISERS[0]);
+        let of_triangles = expression.rows().all(|row| row.flip_free);
+        return Ok(if of_triangles { &Newton::ROW } else { MINIMISERS[0] });
     }
     minimiser(name).ok_or_else(|| MapError::NotAMinimiser {
         name: name.to_owned(),
