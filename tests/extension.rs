@@ -10,7 +10,7 @@ use riemap::problem::linear::LinearProblem;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint};
 use riemap::solver::{LinearSolver, Observer, Phase, Silent, SolveError, Unsuitable, solve_linear};
-use riemap::surface::generate::{Form, Immersion, Parameter, Row, generate_from};
+use riemap::surface::generate::{Form, Immersion, Parameter, SurfaceKind, generate_from};
 
 /// The symmedian point: barycentric weights a², b², c². Inside every triangle.
 struct Symmedian;
@@ -79,10 +79,14 @@ impl LinearSolver for Relaxation {
 }
 
 /// A conformal immersion of the disc that the crate does not have: a patch of a cone around its axis, off the apex.
-const CONE: Row = Row {
+const CONE: SurfaceKind = SurfaceKind {
     name: "cone",
     about: "part of a cone of revolution, r = e^{u sin α}, φ = v",
-    parameters: &[Row::CELLS, &[Parameter::real("angle", 0.5, 0.1, 1.4, "half the opening angle")], Row::MESH],
+    parameters: &[
+        SurfaceKind::CELLS,
+        &[Parameter::real("angle", 0.5, 0.1, 1.4, "half the opening angle")],
+        SurfaceKind::MESH,
+    ],
     form: Form::Disc(|arguments| {
         let (sin, cos) = arguments.real("angle")?.sin_cos();
         let immersion: Immersion = Box::new(move |[u, v]| {

@@ -2,16 +2,17 @@
 
 use super::Faces;
 
-/// The undirected edges of a polygon mesh and, for each, the corners whose directed edge lies on it.
+/// The undirected edges of a polygon mesh and the corners whose directed edges lie on each of them.
 ///
-/// Built in linear time by bucketing the directed edges by their smaller vertex. Edges are ordered by
-/// (smaller end, larger end), the corners of an edge by their position. Two edges may have the same ends where the faces
-/// state their [twins](Faces::twins).
+/// Edges are ordered by (smaller end, larger end), the corners of an edge by their position. Two
+/// edges can have the same ends if the faces carry [twins](Faces::twins). Construction takes linear
+/// time: directed edges are bucketed by their smaller vertex.
 #[derive(Clone, Debug)]
 pub struct Edges {
-    /// End vertices of each edge, the smaller first (`ne × 2`). Equal ends: a face repeats a vertex.
+    /// End vertices of each edge, the smaller first (`ne × 2`). Equal ends mean that a face repeats
+    /// a vertex.
     pub ends: Vec<[u32; 2]>,
-    /// The edge on which each corner's directed edge lies (one per corner).
+    /// The edge on which the directed edge of each corner lies (one per corner).
     pub of_corner: Vec<u32>,
     /// The face of each corner (one per corner).
     pub face_of_corner: Vec<u32>,
@@ -20,7 +21,7 @@ pub struct Edges {
 }
 
 impl Edges {
-    /// The edges of `faces`, whose vertex indices are below `vertices`.
+    /// Finds the edges of `faces`, whose vertex indices are below `vertices`.
     pub fn new(faces: &Faces, vertices: usize) -> Self {
         let corner_vertex = faces.corners();
         let total = corner_vertex.len();
@@ -53,7 +54,7 @@ impl Edges {
         let mut of_corner = vec![0u32; total];
         for v in 0..vertices {
             let (first, last) = (bucket[v] as usize, bucket[v + 1] as usize);
-            // Corners of one edge have the same key.
+            // Corners of one edge have equal keys.
             let key = |c: u32| (larger_end[c as usize], faces.twins().map(|twins| c.min(twins[c as usize])));
             corners[first..last].sort_unstable_by_key(|&c| (key(c), c));
             for k in first..last {
@@ -79,12 +80,14 @@ impl Edges {
         self.ends.is_empty()
     }
 
-    /// The corners whose directed edge lies on edge `e`: one on a boundary edge, two inside a manifold.
+    /// The corners whose directed edges lie on edge `e`: one on a boundary edge, two inside a
+    /// manifold.
     pub fn corners(&self, e: usize) -> &[u32] {
         &self.corners[self.offsets[e] as usize..self.offsets[e + 1] as usize]
     }
 
-    /// The corner on the other side of corner `c`'s edge, where exactly two faces meet.
+    /// Returns the corner of the same edge in the neighbouring face; `None` unless exactly two
+    /// faces meet.
     pub fn opposite(&self, c: usize) -> Option<usize> {
         match *self.corners(self.of_corner[c] as usize) {
             [a, b] => Some(if a as usize == c { b as usize } else { a as usize }),
@@ -93,7 +96,7 @@ impl Edges {
     }
 }
 
-/// The corner behind `c` in face `f`.
+/// Returns the corner that follows `c` in face `f`.
 pub(crate) fn next_in(faces: &Faces, f: usize, c: usize) -> usize {
     let range = faces.corner_range(f);
     if c + 1 == range.end { range.start } else { c + 1 }

@@ -1,10 +1,12 @@
-/// Polygons of any arity in one array: face `f` has the corners `offsets[f] .. offsets[f + 1]`.
+/// Polygons of any arity in one flat array: face `f` has the corners `offsets[f] .. offsets[f +
+/// 1]`.
 ///
-/// A *corner* is a position in the flat array; the corner `c` of face `f` also names the directed edge from its
-/// vertex to that of the face's next corner.
+/// A *corner* is a position in the flat array. Corner `c` of face `f` also stands for the directed
+/// edge from its vertex to the vertex of the next corner of the face.
 ///
-/// Which faces meet across an edge follows from the vertices, but where two edges have the same ends: voxels that touch
-/// along an edge alone can bring four faces to it, two and two of which are neighbours. Such faces carry *twins*.
+/// Usually the vertices determine which faces meet across an edge. They do not if two edges have
+/// the same ends: where voxels touch along an edge only, four faces can meet at it, which form two
+/// pairs of neighbours. Such faces carry *twins*.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Faces {
     offsets: Vec<u32>,
@@ -19,28 +21,28 @@ impl Default for Faces {
 }
 
 impl Faces {
-    /// No faces yet, room for `faces` of them with `corners` corners in all.
+    /// Returns an empty list with capacity for `faces` faces with `corners` corners in total.
     pub fn with_capacity(faces: usize, corners: usize) -> Self {
         let mut offsets = Vec::with_capacity(faces + 1);
         offsets.push(0);
         Faces { offsets, corners: Vec::with_capacity(corners), twins: None }
     }
 
-    /// Marks a corner whose edge is on the boundary, among [`Faces::twins`].
+    /// The twin of a corner whose edge is on the boundary; see [`Faces::twins`].
     pub const NO_TWIN: u32 = u32::MAX;
 
-    /// The same faces with their neighbours stated: for each corner the one whose directed edge is the same edge of the
-    /// other face, or [`Faces::NO_TWIN`].
+    /// Returns the same faces with explicit neighbours: `twins[c]` is the corner of the same edge
+    /// in the neighbouring face, or [`Faces::NO_TWIN`].
     pub(crate) fn with_twins(self, twins: Vec<u32>) -> Self {
         Faces { twins: Some(twins), ..self }
     }
 
-    /// The twin of every corner, where neighbours are stated.
+    /// The twin of every corner, if neighbours are explicit.
     pub fn twins(&self) -> Option<&[u32]> {
         self.twins.as_deref()
     }
 
-    /// Appends a polygon, given by its vertex indices in order. Twins that were stated are forgotten.
+    /// Appends a polygon, given by its vertex indices in order. Discards twins.
     pub fn push(&mut self, polygon: &[u32]) {
         self.twins = None;
         self.corners.extend_from_slice(polygon);
@@ -57,12 +59,12 @@ impl Faces {
         self.len() == 0
     }
 
-    /// Vertex indices of face `f`, in order.
+    /// The vertex indices of face `f`, in order.
     pub fn get(&self, f: usize) -> &[u32] {
         &self.corners[self.corner_range(f)]
     }
 
-    /// Corners of face `f` as positions in [`Faces::corners`].
+    /// The corners of face `f` as a range of positions in [`Faces::corners`].
     pub fn corner_range(&self, f: usize) -> std::ops::Range<usize> {
         self.offsets[f] as usize..self.offsets[f + 1] as usize
     }
@@ -72,18 +74,18 @@ impl Faces {
         &self.corners
     }
 
-    /// All polygons in order.
+    /// Iterates over the polygons in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[u32]> + '_ {
         (0..self.len()).map(|f| self.get(f))
     }
 
-    /// The common number of corners, or `None` when the faces differ in it (or there is none).
+    /// The common number of corners; `None` if faces differ in it or there is no face.
     pub fn arity(&self) -> Option<usize> {
         let first = self.iter().next()?.len();
         self.iter().all(|p| p.len() == first).then_some(first)
     }
 
-    /// The same polygons with every vertex `v` called `new[v]`.
+    /// Returns the same polygons with every vertex `v` replaced by `new[v]`.
     pub fn renumbered(&self, new: &[u32]) -> Faces {
         Faces {
             offsets: self.offsets.clone(),
@@ -92,12 +94,12 @@ impl Faces {
         }
     }
 
-    /// Reverses the order of the corners of face `f` behind its first one.
+    /// Reverses the orientation of face `f`; its first corner stays first.
     pub fn flip(&mut self, f: usize) {
         let range = self.corner_range(f);
         self.corners[range.start + 1..range.end].reverse();
         if let Some(twins) = &mut self.twins {
-            // The edges come in reverse order, each named by its other end.
+            // The edges are in reverse order, and each is represented by its other end.
             let last = range.start + range.end - 1;
             twins[range.clone()].reverse();
             for c in range.clone() {

@@ -1,4 +1,4 @@
-//! What is mapped: positions and polygons, and all that is known of them before a formula is applied.
+//! Surfaces to be mapped: positions, polygons and their combinatorial properties.
 
 pub mod cut;
 pub mod digital;
@@ -19,21 +19,24 @@ pub use faces::Faces;
 pub use surrogate::Surrogates;
 pub(crate) use union_find::UnionFind;
 
-/// A polygon mesh as its source states it, before any judgement: every face has at least three corners and every vertex index exists;
-/// nothing else is promised. [`Diagnosis`](topology::diagnosis::Diagnosis) says what is wrong with it.
+/// A polygon mesh as given by its source.
+///
+/// Every face has at least three corners and every vertex index is valid; no other property is
+/// guaranteed. [`Diagnosis`](topology::diagnosis::Diagnosis) finds its defects.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
-    /// Vertex positions in R³ (`nv × 3`, the unit of the source).
+    /// Vertex positions in R³ (`nv × 3`, in the unit of the source).
     pub(crate) positions: Vec<[f64; 3]>,
     /// Polygons as lists of vertex indices, each index `< nv`, in the order of the source.
     pub(crate) faces: Faces,
-    /// One unit normal per face (`nf × 3`) where the source gives normals: the normalised mean of the normals at the face's corners.
+    /// One unit normal per face (`nf × 3`), if the source gives normals: the normalised mean of the
+    /// normals at the corners of the face.
     pub(crate) face_normals: Option<Vec<[f64; 3]>>,
 }
 
 impl Surface {
-    /// The surface with these vertex positions (`nv × 3`) and polygons (`nf` lists of vertex indices, counted from 0, counterclockwise
-    /// seen from outside).
+    /// Makes a surface from vertex positions (`nv × 3`) and polygons (`nf` lists of vertex indices,
+    /// counted from 0, counter-clockwise seen from outside).
     ///
     /// ```
     /// use riemap::Surface;
@@ -45,12 +48,13 @@ impl Surface {
     /// ```
     ///
     /// # Errors
-    /// A face with fewer than three corners, a vertex index out of range, or more vertices or corners than 32-bit indices can count.
+    /// A face with fewer than three corners, a vertex index out of range, or more vertices or
+    /// corners than 32-bit indices can number.
     pub fn new(positions: Vec<[f64; 3]>, faces: Vec<Vec<u32>>) -> Result<Self, SurfaceError> {
         Surface::from_polygons(positions, &faces)
     }
 
-    /// As [`Surface::new`], from any list of polygons.
+    /// Makes a surface as [`Surface::new`] does, from any sequence of polygons.
     ///
     /// # Errors
     /// As for [`Surface::new`].
@@ -59,7 +63,7 @@ impl Surface {
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<Self, SurfaceError> {
         let vertices = positions.len();
-        // The last index marks corners and vertices that are not there.
+        // The largest index is reserved: it marks missing corners and vertices.
         if vertices >= u32::MAX as usize {
             return Err(SurfaceError::TooManyVertices { vertices });
         }
@@ -80,10 +84,10 @@ impl Surface {
         Ok(Surface { positions, faces, face_normals: None })
     }
 
-    /// The same surface with one unit normal per face (`nf × 3`).
+    /// Returns the same surface with one unit normal per face (`nf × 3`).
     ///
     /// # Errors
-    /// Another number of normals than of faces.
+    /// The number of normals is not the number of faces.
     pub fn with_face_normals(self, normals: Vec<[f64; 3]>) -> Result<Self, SurfaceError> {
         match normals.len() == self.faces.len() {
             true => Ok(Surface { face_normals: Some(normals), ..self }),
@@ -91,12 +95,12 @@ impl Surface {
         }
     }
 
-    /// Vertex positions in R³ (`nv × 3`, the unit of the source).
+    /// Vertex positions in R³ (`nv × 3`, in the unit of the source).
     pub fn positions(&self) -> &[[f64; 3]] {
         &self.positions
     }
 
-    /// Vertex positions in R³ (`nv × 3`), to be moved.
+    /// Mutable vertex positions in R³ (`nv × 3`).
     pub fn positions_mut(&mut self) -> &mut [[f64; 3]] {
         &mut self.positions
     }
@@ -106,7 +110,7 @@ impl Surface {
         &self.faces
     }
 
-    /// One unit normal per face (`nf × 3`), where the source gives normals.
+    /// One unit normal per face (`nf × 3`), if the source gives normals.
     pub fn face_normals(&self) -> Option<&[[f64; 3]]> {
         self.face_normals.as_deref()
     }

@@ -1,28 +1,31 @@
-//! Components, patches, and the orientation that makes neighbours agree.
+//! Connected components, patches, and their consistent orientation.
 
 use super::Faces;
 use super::edges::{Edges, next_in};
 use super::union_find::UnionFind;
 
-/// Which faces belong together, and which of them must be turned over for neighbours to agree.
+/// The connected components of a mesh and the flips that orient it consistently.
 ///
-/// A *patch* is connected across edges of exactly two faces: orientation can be carried through it. A *component* is
-/// connected across any edge.
+/// A *patch* is connected across edges of exactly two faces, through which an orientation can be
+/// propagated. A *component* is connected across any edges.
 #[derive(Clone, Debug)]
 pub struct Orientation {
-    /// The component of each face, numbered in the order of their first faces.
+    /// The component of each face; components are numbered in the order of their first faces.
     pub component: Vec<u32>,
     /// Number of components.
     pub components: usize,
-    /// Faces to flip so that neighbours across every edge of two faces agree; of the two ways, the one that flips
-    /// fewer faces of the patch (nothing is flipped in a non-orientable patch).
+    /// For each face, whether it must be flipped so that neighbours across edges of two faces
+    /// agree.
+    ///
+    /// Of the two possibilities the one that flips fewer faces of a patch is taken. Faces of
+    /// non-orientable patches are not flipped.
     pub flip: Vec<bool>,
-    /// For each component an edge of two faces that no choice of flips can orient, if there is one.
+    /// For each component, an edge of two faces at which orientation fails, if there is one.
     pub contradiction: Vec<Option<u32>>,
 }
 
 impl Orientation {
-    /// Breadth-first over the edges that exactly two faces share.
+    /// Propagates the orientation breadth first over the edges that exactly two faces share.
     pub fn new(faces: &Faces, edges: &Edges) -> Self {
         const UNSEEN: u32 = u32::MAX;
         let mut patch = vec![UNSEEN; faces.len()];
@@ -81,7 +84,8 @@ impl Orientation {
     }
 }
 
-/// Whether two faces run through their common edge in the same direction, which neighbours that agree never do.
+/// Whether two faces traverse their common edge in the same direction, that is, are oriented
+/// inconsistently.
 pub(super) fn same_direction(faces: &Faces, (f, c): (usize, usize), (g, d): (usize, usize)) -> bool {
     let vertex = faces.corners();
     vertex[c] == vertex[d] && vertex[next_in(faces, f, c)] == vertex[next_in(faces, g, d)]

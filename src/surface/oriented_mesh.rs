@@ -4,31 +4,38 @@ use super::edges::next_in;
 use super::{Faces, Surface, Surrogates};
 use crate::surface::topology::diagnosis::{Diagnosis, Finding};
 
-/// One consistently oriented topological disc of triangles or of quads, vertices numbered without gaps; or, from
-/// [`OrientedMesh::closed`], a closed surface.
+/// A consistently oriented topological disc made of triangles or of quads, or a closed surface
+/// (from [`OrientedMesh::closed`]).
+///
+/// Vertices are numbered without gaps.
 #[derive(Clone, Debug)]
 pub struct OrientedMesh {
-    /// Vertex positions (`nv × 3`), those in use only.
+    /// Positions of the vertices (`nv × 3`); all vertices belong to faces.
     pub positions: Vec<[f64; 3]>,
-    /// The faces, in the order of the source, all counter-clockwise seen from the same side. The last `filled` ones close
-    /// holes of the source.
+    /// The faces in the order of the source, all counter-clockwise seen from the same side. The
+    /// last `filled` of them fill holes of the source.
     pub faces: Faces,
-    /// Unit normals per face (`nf × 3`), turned over with their faces, where the source gives them.
+    /// Unit normals per face (`nf × 3`), flipped with their faces, if the source gives them.
     pub face_normals: Option<Vec<[f64; 3]>>,
-    /// The boundary loop, with the surface on its left, from the vertex of lowest index. Empty where there is none.
+    /// The boundary loop with the surface on its left, from the vertex of lowest index; empty on
+    /// closed surfaces.
     pub boundary: Vec<u32>,
-    /// For each vertex its index in the source, ascending. One on a cut is there several times, one behind the other;
-    /// those put into holes come last and have [`OrientedMesh::NEW`].
+    /// For each vertex its index in the source, ascending.
+    ///
+    /// A vertex on a cut has several copies with consecutive indices. Vertices that fill holes come
+    /// last and have [`OrientedMesh::NEW`].
     pub source_vertex: Vec<u32>,
-    /// For each face its index in the source, ascending; those put into holes come last and have [`OrientedMesh::NEW`].
+    /// For each face its index in the source, ascending; faces that fill holes come last and have
+    /// [`OrientedMesh::NEW`].
     pub source_face: Vec<u32>,
-    /// Number of faces that were put into holes. They take part in the map, but not in what is written or measured.
+    /// Number of faces that fill holes. They take part in the map, but are neither written nor
+    /// measured.
     pub filled: usize,
-    /// The faces without area that are given a shape; none unless that is asked for.
+    /// The faces without area that are mapped with a surrogate shape; empty unless requested.
     pub surrogates: Surrogates,
 }
 
-/// The surface is no disc, or too badly formed to be mapped: all that stands against it.
+/// The surface is not a disc or is too degenerate to be mapped; all reasons are listed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}", lines(.findings))]
 pub struct NotADisc {
@@ -41,13 +48,14 @@ fn lines(findings: &[Finding]) -> String {
 }
 
 impl OrientedMesh {
-    /// Marks what the source has not: vertices and faces put into holes; and, of corners, what the disc has not.
+    /// The index in the source of a vertex or face that fills a hole; also marks corners of faces
+    /// that were removed.
     pub const NEW: u32 = u32::MAX;
 
-    /// The disc that `surface` is, with the orientation its diagnosis asks for.
+    /// Converts a surface that is a disc, with the orientation that its diagnosis requires.
     ///
     /// # Errors
-    /// All fatal findings of the diagnosis, where there are some.
+    /// All fatal findings of the diagnosis, if there are any.
     pub fn new(surface: &Surface, diagnosis: &Diagnosis) -> Result<Self, NotADisc> {
         let findings: Vec<Finding> = diagnosis.fatal().cloned().collect();
         if !findings.is_empty() {
@@ -84,7 +92,7 @@ impl OrientedMesh {
         })
     }
 
-    /// The mesh as a surface of its own, filled holes included.
+    /// Returns the mesh as a surface, including the faces that fill holes.
     pub fn to_surface(&self) -> Surface {
         Surface {
             positions: self.positions.clone(),
@@ -93,24 +101,26 @@ impl OrientedMesh {
         }
     }
 
-    /// Number of faces that the source has too; they come first.
+    /// Number of faces that belong to the source; they come first.
     pub fn source_faces(&self) -> usize {
         self.faces.len() - self.filled
     }
 
-    /// The vertices that vertex `source` of the source became: none where no face uses it, several where it was cut.
+    /// The copies of vertex `source` of the source: none if no face uses it, several if it lies on
+    /// a cut.
     pub fn copies(&self, source: u32) -> std::ops::Range<u32> {
         let first = self.source_vertex.partition_point(|&v| v < source);
         let count = self.source_vertex[first..].iter().take_while(|&&v| v == source && v != Self::NEW).count();
         first as u32..(first + count) as u32
     }
 
-    /// Whether some vertex of the source is there several times.
+    /// Whether some vertex of the source has several copies.
     pub fn is_cut(&self) -> bool {
         self.source_vertex.windows(2).any(|pair| pair[0] == pair[1] && pair[0] != Self::NEW)
     }
 
-    /// For every corner of `surface`, from which this was made, the vertex there; [`OrientedMesh::NEW`] at faces that were removed.
+    /// For every corner of `surface`, the source of this mesh, returns the vertex there, or
+    /// [`OrientedMesh::NEW`] at faces that were removed.
     pub fn corner_vertices(&self, surface: &Surface) -> Vec<u32> {
         let mut corners = self.corners_of(surface);
         for c in corners.iter_mut().filter(|c| **c != Self::NEW) {
@@ -119,15 +129,16 @@ impl OrientedMesh {
         corners
     }
 
-    /// For every corner of `surface`, from which this was made, the corner here, a position in the corners of
-    /// [`OrientedMesh::faces`]; [`OrientedMesh::NEW`] at faces that were removed.
+    /// For every corner of `surface`, the source of this mesh, returns the corresponding position
+    /// in the corners of [`OrientedMesh::faces`], or [`OrientedMesh::NEW`] at faces that were
+    /// removed.
     pub fn corners_of(&self, surface: &Surface) -> Vec<u32> {
         let mut corners = vec![Self::NEW; surface.faces.corners().len()];
         for (f, &source) in self.source_face.iter().enumerate().take(self.source_faces()) {
             let range = surface.faces.corner_range(source as usize);
             let (theirs, ours) = (surface.faces.get(source as usize), self.faces.get(f));
             let (first, n) = (self.faces.corner_range(f).start, ours.len());
-            // A face that was turned over keeps its first corner.
+            // A flipped face keeps its first corner.
             let turned = self.source_vertex[ours[1] as usize] != theirs[1];
             for (k, c) in range.enumerate() {
                 corners[c] = (first + if turned { (n - k) % n } else { k }) as u32;
@@ -137,7 +148,8 @@ impl OrientedMesh {
     }
 }
 
-/// The boundary loop in the direction of the oriented faces. A disc has one, and each of its vertices one edge ahead.
+/// Returns the boundary loop in the direction of the oriented faces. A disc has one loop, and one
+/// outgoing edge at each of its vertices.
 fn boundary(surface: &Surface, diagnosis: &Diagnosis, compact: &[u32]) -> Vec<u32> {
     let topology = &diagnosis.topology;
     let vertex = surface.faces.corners();
@@ -151,7 +163,7 @@ fn boundary(surface: &Surface, diagnosis: &Diagnosis, compact: &[u32]) -> Vec<u3
             std::mem::swap(&mut a, &mut b);
         }
         ahead[a as usize] = b;
-        // Edges come sorted by their smaller ends.
+        // Edges are sorted by their smaller ends.
         first.get_or_insert(topology.edges.ends[e][0]);
     }
     let mut boundary = Vec::new();

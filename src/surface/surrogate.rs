@@ -1,38 +1,45 @@
-//! Shapes at rest for faces that have none.
+//! Surrogate shapes at rest for faces without area.
 
 use super::Faces;
 use crate::geometry::vector::{cross, dot, norm, scale, sub};
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::{ZERO_AREA, has_no_area};
 
-/// The faces of a disc that have no area that doubles can tell from zero, and the shapes that they are given at rest.
+/// The faces of a disc whose area vanishes in double precision, and the surrogate shapes at rest
+/// that replace them in the computation.
 ///
-/// - A *triangle* keeps its longest edge and the foot of its third vertex on it; that vertex is lifted off the edge to `height` times the
-///   edge's length. So neighbours see the edges that they see anyhow, and an edge without length gets `height` times the length of the
-///   longest edge beside it. A triangle that is one point is equilateral.
-/// - A *quad* is a rectangle, its longer pair of sides as long as its longest edge, the other `height` times that. A quad that is one point is a square.
-/// - No face is smaller than the mesh's mean edge times `height`.
+/// - A *triangle* keeps its longest edge and the foot of its third vertex on it; the third vertex
+///   is lifted off the edge by `height` times the edge's length. Its neighbours thus see nearly the
+///   same edge lengths, and an edge of length zero gets `height` times the length of the longest
+///   edge beside it. A triangle that is a single point becomes equilateral.
+/// - A *quad* becomes a rectangle whose longer sides have the length of its longest edge and whose
+///   shorter sides are `height` times that. A quad that is a single point becomes a square.
+/// - No surrogate is smaller than `height` times the mean edge of the mesh.
 ///
-/// The less the height, the nearer is the map to that of the surface without these faces, and the flatter are they in the plane.
+/// The smaller the height, the closer is the map to that of the surface without these faces, and
+/// the flatter are their images.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surrogates {
-    /// Height over length.
+    /// Height over length of a surrogate.
     pub height: f64,
-    /// The faces, ascending.
+    /// Indices of the faces, ascending.
     pub faces: Vec<u32>,
-    /// The corners of each of them, counter-clockwise in a plane; of a triangle the first three.
+    /// The corners of each surrogate, counter-clockwise in a plane; triangles use the first three.
     places: Vec<[[f64; 3]; 4]>,
 }
 
 impl Surrogates {
-    /// The height where nothing else is said.
+    /// The default height.
     ///
-    /// Flat triangles were put into 24 edges of `sphere?n=24&mesh=delaunay`. The other vertices of its free map, of diameter 2, are then
-    /// 3.4e-2 from where they are in the limit of no height if the triangles are equilateral (a height of 0.87), 1e-2 at 0.1, 4e-4 at 0.01, 4e-6
-    /// at 1e-4; and the limit is 2e-3 from the map of the mesh as it was, for it is another mesh. Less than 0.01 gains nothing then, and makes needles.
+    /// # Rationale
+    /// Flat triangles were inserted at 24 edges of `sphere?n=24&mesh=delaunay`. The other vertices
+    /// of its free map, of diameter 2, are then at the following distances from their limits as the
+    /// height tends to 0: 3.4e-2 with equilateral triangles (height 0.87), 1e-2 at 0.1, 4e-4 at
+    /// 0.01, 4e-6 at 1e-4. The limit itself is 2e-3 from the map of the original mesh, because it
+    /// is a different mesh. Heights below 0.01 therefore gain nothing and make needles.
     pub const HEIGHT: f64 = 0.01;
 
-    /// Those of the faces of a mesh of triangles or of quads.
+    /// Finds the faces without area in a mesh of triangles or of quads and makes their surrogates.
     pub fn new(positions: &[[f64; 3]], faces: &Faces, height: f64) -> Self {
         let without: Vec<u32> =
             (0..faces.len()).filter(|&f| has_no_area(positions, faces.get(f))).map(|f| f as u32).collect();
@@ -48,17 +55,19 @@ impl Surrogates {
         Surrogates { height, places: without.iter().map(place).collect(), faces: without }
     }
 
-    /// Whether face `f` is one of them.
+    /// Whether face `f` has a surrogate.
     pub fn has(&self, f: usize) -> bool {
         !self.faces.is_empty() && self.faces.binary_search(&(f as u32)).is_ok()
     }
 
-    /// What face f counts for where every face counts for 1: surrogates are to leave their neighbours alone there too.
+    /// The weight of face f in sums in which a regular face has weight 1; small for surrogates, so
+    /// that they hardly affect their neighbours.
     pub fn share(&self, f: usize) -> f64 {
         if self.has(f) { self.height } else { 1.0 }
     }
 
-    /// Two edges of a corner, of which one at least has a length; where they span no area, those of a triangle of the usual height.
+    /// Returns two edges at a corner, at least one of which has positive length; if they span no
+    /// area, those of a triangle of the default height.
     pub(crate) fn opened([ahead, behind]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
         let longest = norm(ahead).max(norm(behind));
         if norm(cross(ahead, behind)) > ZERO_AREA * longest * longest {
@@ -77,7 +86,8 @@ impl Surrogates {
 }
 
 impl OrientedMesh {
-    /// From corner k of face f to its corner l at rest: what energies and ρ know of the face.
+    /// The vector from corner k of face f to its corner l at rest, from which energies and ρ are
+    /// computed.
     pub fn spoke(&self, f: usize, k: usize, l: usize) -> [f64; 3] {
         match self.surrogates.of(f) {
             Some(places) => sub(places[l], places[k]),
@@ -88,7 +98,7 @@ impl OrientedMesh {
         }
     }
 
-    /// The length at rest of the edge that these corners are on: the longest that one of its faces has there.
+    /// The length at rest of the edge of these corners: the maximum over its faces.
     pub fn edge_length(&self, corners: &[u32], face_of_corner: &[u32]) -> f64 {
         let length = |&c: &u32| {
             let f = face_of_corner[c as usize] as usize;
@@ -100,7 +110,7 @@ impl OrientedMesh {
     }
 }
 
-/// The mean length of the edges that have one, inner ones counting twice.
+/// Mean length of the edges of positive length, inner edges counting twice.
 fn mean_edge(positions: &[[f64; 3]], faces: &Faces) -> f64 {
     let (mut sum, mut count) = (0.0, 0usize);
     for polygon in faces.iter() {
@@ -112,7 +122,7 @@ fn mean_edge(positions: &[[f64; 3]], faces: &Faces) -> f64 {
     if count > 0 { sum / count as f64 } else { 1.0 }
 }
 
-/// |b − a|, without underflow.
+/// b − a| without underflow.
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = sub(b, a);
     let unit = d.iter().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -121,7 +131,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 fn triangle(corners: [[f64; 3]; 3], height: f64, smallest: f64) -> [[f64; 3]; 4] {
     let length = |k: usize| distance(corners[k], corners[(k + 1) % 3]);
-    // Of equal ones the first.
+    // Of edges of equal length the first.
     let first = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
     let longest = length(first);
     let size = longest.max(smallest);
@@ -157,7 +167,7 @@ mod tests {
     #[test]
     fn a_vertex_is_lifted_off_the_longest_edge_where_it_is() {
         let [a, b, c, _] = triangle([[0.0; 3], [0.0, 3.0, 0.0], [0.0, 4.0, 0.0]], 0.1, 0.0);
-        // The longest edge is from the third to the first.
+        // The longest edge joins the third corner to the first.
         assert_eq!((c, a), ([0.0; 3], [4.0, 0.0, 0.0]));
         assert!(norm(sub(b, [1.0, 0.4, 0.0])) < 1e-15);
         // Counter-clockwise.
@@ -178,7 +188,7 @@ mod tests {
         for size in [1e-200, 1e-320] {
             let [a, b, c, _] = triangle([[0.0; 3], [size, 0.0, 0.0], [0.0, size, 0.0]], 0.01, 1e-2);
             let twice_area = norm(cross(sub(b, a), sub(c, a)));
-            // Half a square: it has a shape of its own, at another size. Denormal numbers have few digits.
+            // Half a square has a shape of its own at any size. Denormal numbers have few digits.
             assert!((twice_area / 1e-4 - 0.5).abs() < 0.01, "{size:e}: {twice_area:e}");
         }
     }

@@ -1,16 +1,16 @@
-/// Disjoint sets of `0 .. n` with path halving; the smallest member represents its set.
+/// Disjoint sets of `0 .. n`, with path halving; the smallest member represents its set.
 #[derive(Clone, Debug)]
 pub(crate) struct UnionFind {
     parent: Vec<u32>,
 }
 
 impl UnionFind {
-    /// `n` sets of one element each.
+    /// Makes `n` sets of one element each.
     pub fn new(n: usize) -> Self {
         UnionFind { parent: (0..n as u32).collect() }
     }
 
-    /// The smallest member of `x`'s set.
+    /// Returns the smallest member of the set of `x`.
     pub fn find(&mut self, mut x: u32) -> u32 {
         while self.parent[x as usize] != x {
             let grandparent = self.parent[self.parent[x as usize] as usize];
@@ -20,13 +20,14 @@ impl UnionFind {
         x
     }
 
-    /// Makes one set of those of `a` and `b`.
+    /// Unites the sets of `a` and `b`.
     pub fn unite(&mut self, a: u32, b: u32) {
         let (a, b) = (self.find(a), self.find(b));
         self.parent[a.max(b) as usize] = a.min(b);
     }
 
-    /// A number for every element's set, counted in the order of first members, and how many sets there are.
+    /// Numbers the sets in the order of their first members; returns the number of each element's
+    /// set and the number of sets.
     pub fn labels(mut self) -> (Vec<u32>, usize) {
         let mut label = vec![0u32; self.parent.len()];
         let mut count = 0;

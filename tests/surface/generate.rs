@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 
 use proptest::prelude::*;
-use riemap::surface::generate::{Form, Generated, Row, SURFACES, Values, generate};
+use riemap::surface::generate::{Form, Generated, SURFACES, SurfaceKind, Values, generate};
 
 fn make(source: &str) -> Generated {
     generate(source).unwrap_or_else(|error| panic!("{source}: {error}"))
 }
 
 /// Whether the surface has all these parameters, and these meshes.
-fn takes(row: &Row, query: &str) -> bool {
+fn takes(row: &SurfaceKind, query: &str) -> bool {
     query.split('&').filter_map(|pair| pair.split_once('=')).all(|(name, value)| {
         row.all_parameters().find(|p| p.name == name).is_some_and(|p| match p.values {
             Values::Choice(words) => words.contains(&value),

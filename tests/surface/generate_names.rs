@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use riemap::surface::generate::{
-    Form, GenerateError, Immersion, Parameter, Row, SURFACES, Values, generate, generate_from, is_generated_name,
+    Form, GenerateError, Immersion, Parameter, SURFACES, SurfaceKind, Values, generate, generate_from,
+    is_generated_name,
 };
 use riemap::surface::parameters::ParameterError;
 
@@ -52,10 +53,10 @@ fn a_name_is_a_file_when_it_exists_or_looks_like_a_path() {
 }
 
 /// A kind of surface from outside the crate.
-const PARABOLOID: Row = Row {
+const PARABOLOID: SurfaceKind = SurfaceKind {
     name: "paraboloid",
     about: "z = a (s² + t²) over [−1, 1]²",
-    parameters: &[Row::VERTICES, &[Parameter::real("a", 1.0, 0.0, 5.0, "steepness")], Row::MESH],
+    parameters: &[SurfaceKind::VERTICES, &[Parameter::real("a", 1.0, 0.0, 5.0, "steepness")], SurfaceKind::MESH],
     form: Form::Square(|arguments| {
         let a = arguments.real("a")?;
         let immersion: Immersion = Box::new(move |[s, t]| [s, t, a * (s * s + t * t)]);
@@ -71,7 +72,8 @@ fn a_new_surface_is_one_row() {
     assert_eq!(g.name, "paraboloid?n=3&a=2&mesh=triangle&diagonal=alternate&jitter=0&seed=0");
     let error = generate_from(&[PARABOLOID], "sphere").unwrap_err();
     assert!(matches!(&error, GenerateError::UnknownSurface { known, .. } if known == "paraboloid"));
-    let wrong = Row { form: Form::Square(|a| Err(a.real("b").expect_err("not declared").into())), ..PARABOLOID };
+    let wrong =
+        SurfaceKind { form: Form::Square(|a| Err(a.real("b").expect_err("not declared").into())), ..PARABOLOID };
     let undeclared = generate_from(&[wrong], "paraboloid").unwrap_err();
     assert_eq!(undeclared, ParameterError::Undeclared { subject: "paraboloid", parameter: "b" }.into());
 }

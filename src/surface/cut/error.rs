@@ -1,69 +1,70 @@
 use crate::surface::oriented_mesh::NotADisc;
 
-/// The surface does not become a disc, or does not become closed.
+/// The surface cannot be opened to a disc, or cannot be closed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CutError {
-    /// Something stands against the surface that neither cut nor filling mends.
+    /// The surface has a defect that neither cutting nor filling removes.
     #[error(transparent)]
     NotADisc(#[from] NotADisc),
-    /// A face to be removed that is not there.
+    /// A face to be removed does not exist.
     #[error("face {face} cannot be removed: the mesh has {faces} faces, which count from 0")]
     NoSuchFace {
-        /// The face asked for.
+        /// The index that was requested.
         face: u32,
-        /// The number of faces.
+        /// The number of faces of the surface.
         faces: usize,
     },
-    /// All faces were removed.
-    #[error("no face is left to be mapped: remove fewer")]
+    /// Every face was to be removed.
+    #[error("no face is left to be mapped: remove fewer faces")]
     NothingLeft,
-    /// The faces removed separate the others.
-    #[error("without the removed faces the surface falls into {pieces} pieces: remove other faces")]
+    /// The removed faces disconnect the rest of the surface.
+    #[error("without the removed faces the surface has {pieces} connected components: remove other faces")]
     Pieces {
-        /// Number of pieces.
+        /// Number of connected components.
         pieces: usize,
     },
-    /// The faces removed leave a surface that touches itself.
+    /// The removed faces leave a surface that touches itself at a vertex (not a manifold there).
     #[error(
-        "with these faces the surface touches itself at vertex {vertex}, in {fans} fans of faces: remove other faces"
+        "without the removed faces the surface touches itself at vertex {vertex}, where {fans} fans of \
+         faces meet: remove other faces"
     )]
     Pinched {
-        /// The first such vertex of the source.
+        /// The first such vertex, as an index of the source.
         vertex: u32,
-        /// Fans of faces around it.
+        /// Number of fans of faces around it.
         fans: u32,
     },
-    /// The surface is still no disc.
-    #[error("the surface is then still no disc: boundary loops of {boundary_loops:?} edges, genus {genus}")]
+    /// The requested steps were carried out and the surface is still not a disc.
+    #[error("the surface is still not a disc: boundary loops of {boundary_loops:?} edges, genus {genus}")]
     NoDiscLeft {
-        /// Edges of each boundary loop, the longest loop first.
+        /// Number of edges of each boundary loop, the longest loop first.
         boundary_loops: Vec<usize>,
-        /// The genus.
+        /// Genus of the surface.
         genus: u64,
     },
-    /// A surface with holes where a closed one is needed.
+    /// A closed surface is needed and this one has a boundary.
     #[error("the surface is not closed: it has boundary loops of {boundary_loops:?} edges")]
     NotClosed {
-        /// Edges of each boundary loop, the longest loop first.
+        /// Number of edges of each boundary loop, the longest loop first.
         boundary_loops: Vec<usize>,
     },
-    /// A hole of an odd number of edges in a quad mesh.
-    #[error("the hole of {edges} edges at vertex {vertex} cannot be filled with quads, as {edges} is odd")]
+    /// A hole of a quad mesh has an odd number of edges, so that quads cannot fill it.
+    #[error("the hole of {edges} edges at vertex {vertex} cannot be filled with quads, because {edges} is odd")]
     OddHole {
-        /// The vertex of lowest index around it, as the source numbers them.
+        /// The vertex of lowest index around the hole, as an index of the source.
         vertex: u32,
-        /// Its number of edges.
+        /// Number of edges of the hole.
         edges: usize,
     },
-    /// A hole whose edges lie so that no point makes faces of positive area with all of them.
+    /// No position of a central vertex gives every face that would fill the hole a positive area.
     #[error(
         "the hole of {edges} edges at vertex {vertex} cannot be filled: some of its edges have no length or run back \
          on themselves"
     )]
     FlatHole {
-        /// The vertex of lowest index around it, as the source numbers them.
+        /// The vertex of lowest index around the hole, as an index of the source.
         vertex: u32,
-        /// Its number of edges.
+        /// Number of edges of the hole.
         edges: usize,
     },
 }

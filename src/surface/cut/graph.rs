@@ -1,27 +1,29 @@
-//! Short graphs along which a surface is cut to a disc.
+//! Short graphs of edges along which a surface is cut to a disc.
 
 use std::collections::HashSet;
 
 use crate::surface::UnionFind;
 use crate::surface::topology::tree_cotree::{EdgeGraph, ShortestPaths, TreeCotree};
 
-/// Faces times systems of loops that may be tried: about a second for each million.
+/// Bound on (number of faces) × (number of systems of loops tried): a million take about a second.
 const EFFORT: usize = 3_000_000;
 
-/// Bounds of the number of systems.
+/// Smallest and largest number of systems of loops that are tried.
 const SYSTEMS: (usize, usize) = (3, 40);
 
-/// Relative difference of lengths that is rounding.
+/// Lengths whose relative difference is below this are taken as equal: it is rounding.
 const SAME: f64 = 1e-9;
 
-/// Roots tried around the best one, before those nearer to it are.
+/// Number of roots tried on a ring around the best root before the ring shrinks.
 const AROUND: usize = 4;
 
-/// Inner edges of `graph` whose removal leaves a disc, of a surface of this genus; none for a disc.
+/// Returns inner edges of `graph` whose removal turns the surface into a disc; none if it is one.
 ///
-/// With handles: the shortest of some greedy systems of loops, without dangling branches, then shortest paths to the
-/// boundary loops it does not meet. Without: the shortest tree of paths that joins the loops (within a factor of two); on
-/// a sphere a shortest path between two points far from each other.
+/// - `genus` > 0: the shortest of several greedy systems of loops, pruned of dangling branches,
+///   joined by shortest paths to the boundary loops that it does not meet.
+/// - genus 0 with boundary loops: a tree of paths that joins the loops, at most twice as long as
+///   the shortest one.
+/// - sphere: a shortest path between two vertices far from each other.
 pub(super) fn cut_graph(graph: &EdgeGraph, genus: u64) -> Vec<u32> {
     match (genus, graph.loops.as_slice()) {
         (0, []) => far_points(graph),
@@ -30,21 +32,26 @@ pub(super) fn cut_graph(graph: &EdgeGraph, genus: u64) -> Vec<u32> {
     }
 }
 
-/// A set of edges and their total length.
+/// A set of edges whose removal leaves a disc, with its total length.
 struct System {
     edges: Vec<u32>,
     length: f64,
-    /// The node of its loops farthest from the root.
+    /// The node on the system's loops that is farthest from the root.
     farthest: u32,
-    /// The distance of each node from the root.
+    /// Distance of each node from the root.
     distance: Vec<f64>,
 }
 
-/// The best of as many systems of loops as the size of the surface allows.
+/// Returns the shortest of several systems of loops; the size of the surface limits how many are
+/// tried.
 ///
-/// First from the farthest point on the best one so far, as long as this helps and once more; then from points around its
-/// root, from an eighth of its length down. The lengths have local minima: on a torus every loop beside the inner equator,
-/// when the way there and back is longer than what it would save.
+/// Roots are chosen in two phases. First, the next root is the farthest point on the best system so
+/// far, until this no longer shortens it. Then roots on a ring around the best root are tried, with
+/// a radius that starts at an eighth of the system's length and is halved when no root on it helps.
+///
+/// # Rationale
+/// The length as a function of the root has local minima: on a torus every loop near the inner
+/// equator is one if the detour to the equator is longer than what it would save.
 fn shortest_system(graph: &EdgeGraph) -> Vec<u32> {
     let most = (EFFORT / graph.faces.len().max(1)).clamp(SYSTEMS.0, SYSTEMS.1);
     let start = graph.loops.first().copied().unwrap_or(graph.node[graph.faces.corners()[0] as usize]);
@@ -79,7 +86,7 @@ fn shortest_system(graph: &EdgeGraph) -> Vec<u32> {
     best.edges
 }
 
-/// The greedy system of loops from `root`, pruned, and the boundary loops joined to it.
+/// Computes the greedy system of loops from `root`, prunes it and joins the boundary loops to it.
 fn system(graph: &EdgeGraph, root: u32) -> System {
     let loops = TreeCotree::new(graph, root);
     let mut chosen = vec![false; graph.edges.len()];
@@ -89,7 +96,7 @@ fn system(graph: &EdgeGraph, root: u32) -> System {
         edges.push(e);
         for n in graph.ends(e) {
             for e in loops.tree.path(graph, n) {
-                // From here on the path is there already.
+                // The rest of the path to the root has already been added.
                 if std::mem::replace(&mut chosen[e as usize], true) {
                     break;
                 }
@@ -105,7 +112,7 @@ fn system(graph: &EdgeGraph, root: u32) -> System {
     System { length: edges.iter().map(|&e| graph.length[e as usize]).sum(), edges, farthest, distance }
 }
 
-/// Removes branches that end at a node.
+/// Removes the branches that end at a node of degree one.
 fn prune(graph: &EdgeGraph, edges: &mut Vec<u32>, chosen: &mut [bool]) {
     let mut degree = vec![0u32; graph.nodes];
     for n in edges.iter().flat_map(|&e| graph.ends(e)) {
@@ -126,9 +133,11 @@ fn prune(graph: &EdgeGraph, edges: &mut Vec<u32>, chosen: &mut [bool]) {
     edges.retain(|&e| chosen[e as usize]);
 }
 
-/// `edges`, which are connected, and paths that join all boundary loops to them, or to each other: a shortest tree with the
-/// distances between these as lengths (K. Mehlhorn, *A faster approximation algorithm for the Steiner problem in graphs*,
-/// 1988).
+/// Extends the connected set `edges` by paths that join all boundary loops to it, or to each other.
+///
+/// The result is a shortest spanning tree of the complete graph on these sets whose edge lengths
+/// are their distances (K. Mehlhorn, *A faster approximation algorithm for the Steiner problem in
+/// graphs*, 1988).
 fn joined(graph: &EdgeGraph, mut edges: Vec<u32>) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let mut nearest = vec![NONE; graph.nodes];
@@ -182,7 +191,8 @@ fn joined(graph: &EdgeGraph, mut edges: Vec<u32>) -> Vec<u32> {
     edges
 }
 
-/// A shortest path of two edges at least: from the point farthest from some point to the one farthest from there.
+/// Returns a path of at least two edges: the shortest path from the node `a` that is farthest from
+/// an arbitrary node to the node that is farthest from `a`.
 fn far_points(graph: &EdgeGraph) -> Vec<u32> {
     let farthest = |paths: &ShortestPaths, from: u32| {
         let others = (0..graph.nodes as u32).filter(|&n| n != from && paths.distance[n as usize].is_finite());
@@ -194,7 +204,7 @@ fn far_points(graph: &EdgeGraph) -> Vec<u32> {
     let b = farthest(&paths, a);
     let mut edges: Vec<u32> = paths.path(graph, b).collect();
     if edges.len() == 1 {
-        // One edge alone does not open a surface.
+        // Cutting a closed surface along a single edge does not open it.
         let beside = [a, b].into_iter().find_map(|n| {
             graph.edges_at(n).iter().copied().find(|&e| {
                 let m = graph.across(e, n);

@@ -1,26 +1,30 @@
-//! Holes closed for the sake of a map.
+//! Fills holes with faces, so that a surface with several boundary loops can be mapped.
 //!
-//! Triangle meshes get a fan around a new vertex in the middle of the hole, quad meshes one of quads, (middle, v0, v1, v2),
-//! (middle, v2, v3, v4) …; a hole of as many edges as the faces have gets one face, and one of two edges is sewn up.
+//! A hole in a triangle mesh gets a fan of triangles around a new central vertex. A hole in a quad
+//! mesh gets the quads (centre, v0, v1, v2), (centre, v2, v3, v4), …. A hole with as many edges as
+//! a face is filled by one face, and a hole of two edges is closed by identifying them.
 
 use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 use crate::surface::Faces;
 use crate::surface::cut::{CutError, CutRecord, Sheet};
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// A middle point will do where every new face has a sine of at least this between base and spoke, or diagonals.
+/// A position of the central vertex is accepted at once if the sine of the angle that measures the
+/// quality of a face (see [`sine`]) is at least this for all new faces.
 const GOOD: f64 = 0.05;
 
-/// Below this, doubles give such a face no ρ worth the name.
+/// Faces with a smaller sine are too flat for ρ to be computed in double precision.
 const FLAT: f64 = 1e-6;
 
-/// How far above the hole the middle is tried where in the plane faces would be flat, in units of the hole's radius.
+/// Heights above the mean plane of the hole at which the central vertex is tried, in units of the
+/// hole's radius. Heights other than 0 are needed where the faces in the plane would be flat.
 const HEIGHTS: [f64; 7] = [0.0, 0.25, -0.25, 0.5, -0.5, 1.0, -1.0];
 
-/// Fills the holes that `loops` are, given as the corners along them.
+/// Fills the holes whose boundary loops are `loops`, each given by the corners along it.
 ///
 /// # Errors
-/// A hole of an odd number of edges in a quad mesh; one that no faces of positive area fill.
+/// [`CutError::OddHole`] in quad meshes; [`CutError::FlatHole`] if no faces of positive area fill
+/// it.
 pub(super) fn fill(sheet: &mut Sheet, loops: &[Vec<u32>], record: &mut CutRecord) -> Result<(), CutError> {
     for along in loops {
         let before = sheet.source_face.len();
@@ -70,7 +74,7 @@ fn fill_one(sheet: &mut Sheet, along: &[u32]) -> Result<(), CutError> {
         for i in 0..step {
             pair(sheet, (corner + 1 + i) as u32, along[around((j + 1) * step - 1 - i)]);
         }
-        // The last spoke of each face is the first of the one before.
+        // The last spoke of each face is the first spoke of the face before it.
         let before = base + (j + faces - 1) % faces * sheet.arity;
         if j > 0 {
             pair(sheet, (corner + step + 1) as u32, before as u32);
@@ -97,7 +101,7 @@ fn pair(sheet: &mut Sheet, c: u32, d: u32) {
     sheet.twins[d as usize] = c;
 }
 
-/// Whether a face at the hole has just its vertices.
+/// Whether some face at the hole has exactly the vertices of the hole.
 fn is_a_face(sheet: &Sheet, along: &[u32], vertices: &[u32]) -> bool {
     along.iter().any(|&c| {
         let first = c as usize / sheet.arity * sheet.arity;
@@ -105,8 +109,10 @@ fn is_a_face(sheet: &Sheet, along: &[u32], vertices: &[u32]) -> bool {
     })
 }
 
-/// Two vectors that span a triangle (the longer two of its edges at the first corner's base) or a quad (its diagonals), and
-/// their cross product.
+/// Returns two vectors that span a face, and their cross product.
+///
+/// The vectors of a triangle are the edge opposite its first corner and the longer of the two other
+/// edges; those of a quad are its diagonals.
 fn spans(places: &[[f64; 3]]) -> ([f64; 3], [f64; 3], [f64; 3]) {
     let (a, b) = match *places {
         [x0, x1, x2] => {
@@ -120,17 +126,18 @@ fn spans(places: &[[f64; 3]]) -> ([f64; 3], [f64; 3], [f64; 3]) {
     (a, b, cross(a, b))
 }
 
-/// The sine of the angle between them; 0 where one has no length.
+/// The sine of the angle between the two vectors of [`spans`]; 0 if one of them vanishes.
 fn sine(places: &[[f64; 3]]) -> f64 {
     let (a, b, across) = spans(places);
     let product = norm(a) * norm(b);
     if product > 0.0 { norm(across) / product } else { 0.0 }
 }
 
-/// Where the fan begins, its middle, and the smallest sine of its faces.
+/// Chooses the vertex at which the fan of a hole begins and the position of its central vertex.
 ///
-/// The middle is the mean of the edges' midpoints, weighted by length, moved out of the hole's mean plane only where a
-/// face would be flat: an edge may point at it.
+/// Returns both and the smallest [`sine`] of the new faces. The central vertex is the mean of the
+/// midpoints of the edges, weighted by their lengths. It leaves the mean plane of the hole only if
+/// a face would be flat in the plane, which happens when an edge points at the centre.
 fn middle(places: &[[f64; 3]], step: usize) -> (usize, [f64; 3], f64) {
     let n = places.len();
     let edge = |k: usize| (places[k], places[(k + 1) % n]);
@@ -171,7 +178,7 @@ fn middle(places: &[[f64; 3]], step: usize) -> (usize, [f64; 3], f64) {
     best
 }
 
-/// A unit vector at right angles to `a`.
+/// Returns a unit vector perpendicular to `a`.
 fn across(a: [f64; 3]) -> [f64; 3] {
     let least = (0..3).min_by(|&i, &j| a[i].abs().total_cmp(&a[j].abs())).unwrap_or(0);
     let mut axis = [0.0; 3];

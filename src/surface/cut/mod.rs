@@ -1,4 +1,6 @@
-//! Any connected oriented surface made a disc, or closed: faces removed, holes filled, handles and holes cut open.
+//! Opens any connected oriented surface to a disc, or closes it.
+//!
+//! The steps are: remove faces, fill holes, cut along a short graph.
 
 mod error;
 mod graph;
@@ -17,26 +19,29 @@ use crate::surface::oriented_mesh::{NotADisc, OrientedMesh};
 use crate::surface::topology::diagnosis::{Diagnosis, Finding};
 use crate::surface::topology::tree_cotree::EdgeGraph;
 
-/// How a surface becomes a disc.
+/// The steps that turn a surface into a disc.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Opening {
-    /// Cut along a short graph whatever is no disc, and split vertices where the surface touches itself.
+    /// Cut a surface that is not a disc along a short graph of edges, and split vertices at which
+    /// the surface touches itself.
     pub cut: bool,
-    /// Faces to remove first; they count from 0.
+    /// Indices of faces that are removed first; they count from 0.
     pub remove_faces: Vec<u32>,
-    /// Fill all holes but the longest; the faces put in take part in the map, but not in what is written or measured.
+    /// Fill all holes but the longest. The new faces take part in the map, but are neither written
+    /// nor measured.
     pub fill_holes: bool,
 }
 
 impl OrientedMesh {
-    /// The disc that `surface` becomes: `remove_faces`, then `fill_holes`, then `cut`, as far as they are asked for and
-    /// needed.
+    /// Turns `surface` into a disc by the steps that `opening` allows, as far as they are needed.
     ///
-    /// Every face stays as it is; vertices on the cut are there once for each fan of faces that the cut leaves.
+    /// The order is `remove_faces`, `fill_holes`, `cut`. Faces that are not removed keep their
+    /// shape. A vertex on the cut is duplicated: there is one copy for each fan of faces into which
+    /// the cut divides its neighbourhood.
     ///
     /// # Errors
-    /// What stands against the surface and no opening mends; a result that is no disc; holes that cannot be filled.
+    /// Defects that no step removes; a result that is not a disc; holes that cannot be filled.
     pub fn open(surface: &Surface, diagnosis: &Diagnosis, opening: &Opening) -> Result<(Self, CutRecord), CutError> {
         let whole = opening.remove_faces.is_empty();
         if whole && (diagnosis.fatal().next().is_none() || *opening == Opening::default()) {
@@ -71,11 +76,13 @@ impl OrientedMesh {
         }
     }
 
-    /// The closed surface that `surface` is, or becomes when all of its holes are filled. Its [`OrientedMesh::boundary`] is empty,
-    /// and it is of any genus.
+    /// Returns `surface` as a closed surface of any genus, with its holes filled if `fill_holes` is
+    /// set.
+    ///
+    /// The [`OrientedMesh::boundary`] of the result is empty.
     ///
     /// # Errors
-    /// What else stands against the surface; holes, where these are not to be filled or cannot be.
+    /// Other defects of the surface; holes that are not to be filled or cannot be filled.
     pub fn closed(surface: &Surface, diagnosis: &Diagnosis, fill_holes: bool) -> Result<(Self, CutRecord), CutError> {
         refuse(diagnosis, |finding| matches!(finding, Finding::Closed { .. } | Finding::NotADisc { .. }))?;
         let mut record = CutRecord::default();
@@ -89,13 +96,14 @@ impl OrientedMesh {
     }
 }
 
-/// Fails with all fatal findings that are not `mended`.
+/// Fails if there are fatal findings for which `mended` is false; the error lists them.
 fn refuse(diagnosis: &Diagnosis, mended: impl Fn(&Finding) -> bool) -> Result<(), NotADisc> {
     let findings: Vec<Finding> = diagnosis.fatal().filter(|&finding| !mended(finding)).cloned().collect();
     if findings.is_empty() { Ok(()) } else { Err(NotADisc { findings }) }
 }
 
-/// The faces that stay, in one piece, every vertex with one fan of faces.
+/// Removes faces and splits vertices so that every vertex has one fan of faces; checks that the
+/// remaining surface is connected.
 fn prepare(
     surface: &Surface,
     diagnosis: &Diagnosis,
@@ -126,7 +134,7 @@ fn prepare(
     Ok(sheet)
 }
 
-/// Cuts a surface that is no disc along a short graph.
+/// Cuts a surface that is not a disc along a short graph.
 fn cut(sheet: &mut Sheet, genus: u64, record: &mut CutRecord) {
     let faces = sheet.faces();
     let edges = Edges::new(&faces, sheet.positions.len());

@@ -1,28 +1,28 @@
 use std::fmt;
 
-/// What was done to a surface to make it a disc, or closed.
+/// A record of the steps that turned a surface into a disc or closed it.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct CutRecord {
-    /// The genus of the surface that was cut; 0 where nothing was cut.
+    /// Genus of the surface that was cut; 0 if nothing was cut.
     pub genus: u64,
-    /// Its boundary loops, which the cut joined.
+    /// Number of boundary loops, which the cut joined.
     pub boundary_loops: usize,
-    /// Number of edges that it was cut along.
+    /// Number of edges in the cut.
     pub cut_edges: usize,
-    /// Their total length, in the unit of the positions.
+    /// Total length of the cut, in the unit of the positions.
     pub cut_length: f64,
     /// Number of holes that were filled.
     pub holes_filled: usize,
-    /// Number of faces that this took.
+    /// Number of faces that fill these holes.
     pub faces_added: usize,
-    /// Number of faces removed.
+    /// Number of faces that were removed.
     pub faces_removed: usize,
-    /// Vertices where the surface touched itself, and was parted.
+    /// Number of vertices that were split because the surface touched itself there.
     pub vertices_split: usize,
 }
 
 impl CutRecord {
-    /// Whether nothing was done.
+    /// Whether the surface was left unchanged.
     pub fn is_empty(&self) -> bool {
         *self == CutRecord::default()
     }
@@ -37,7 +37,7 @@ impl fmt::Display for CutRecord {
         }
         if self.vertices_split > 0 {
             let vertices = counted(self.vertices_split, "vertex", "vertices");
-            parts.push(format!("parted at {vertices} where the surface touched itself"));
+            parts.push(format!("split at {vertices} where the surface touched itself"));
         }
         if self.holes_filled > 0 {
             let holes = counted(self.holes_filled, "hole", "holes");

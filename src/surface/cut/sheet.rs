@@ -1,4 +1,4 @@
-//! A surface under the knife: corners that know their vertices and their twins, nothing else.
+//! A mesh during cutting: its corners, their vertices and their twins.
 
 use crate::geometry::vector::scale;
 use crate::surface::edges::Edges;
@@ -6,47 +6,50 @@ use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::Topology;
 use crate::surface::{Faces, Surface, Surrogates, UnionFind};
 
-/// One connected piece of triangles or of quads, consistently oriented.
+/// A consistently oriented mesh of triangles or of quads that can be cut and extended.
 pub(in crate::surface) struct Sheet {
-    /// Corners of every face.
+    /// Number of corners of each face.
     pub arity: usize,
     /// The vertex of each corner, face after face.
     pub corners: Vec<u32>,
-    /// The corner of the same edge in the face across it, or [`Faces::NO_TWIN`].
+    /// For each corner, the corner of the same edge in the neighbouring face, or
+    /// [`Faces::NO_TWIN`].
     pub twins: Vec<u32>,
-    /// The place of each vertex.
+    /// The position of each vertex.
     pub positions: Vec<[f64; 3]>,
-    /// For each vertex its index in the source, ascending; [`OrientedMesh::NEW`] last, for vertices that it has not.
+    /// For each vertex its index in the source, ascending; new vertices come last and have
+    /// [`OrientedMesh::NEW`].
     pub source_vertex: Vec<u32>,
-    /// For each face its index in the source, ascending; [`OrientedMesh::NEW`] last.
+    /// For each face its index in the source, ascending; new faces come last and have
+    /// [`OrientedMesh::NEW`].
     pub source_face: Vec<u32>,
-    /// Unit normals per face, where the source gives them.
+    /// Unit normals per face, if the source gives them.
     pub face_normals: Option<Vec<[f64; 3]>>,
 }
 
-/// Vertices where the surface touched itself.
+/// The vertices at which the surface touched itself.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pinches {
-    /// How many there were.
+    /// Number of such vertices.
     pub count: usize,
-    /// The first one, as the source numbers it, and its number of fans.
+    /// The first such vertex as an index of the source, and its number of fans.
     pub first: Option<(u32, u32)>,
 }
 
 impl Sheet {
-    /// The faces of `surface` that are not `removed`, turned over as `topology` says.
+    /// Takes the faces of `surface` that are not `removed`, flipped as `topology` requires.
     pub fn new(surface: &Surface, topology: &Topology, removed: &[bool]) -> Self {
         let faces = &surface.faces;
         let arity = if faces.is_empty() { 3 } else { faces.get(0).len() };
         let flip = &topology.orientation.flip;
         let source_face: Vec<u32> = (0..faces.len() as u32).filter(|&f| !removed[f as usize]).collect();
-        // Where the directed edge of each corner of the source is now.
+        // The new corner of each directed edge of the source.
         let mut moved = vec![Faces::NO_TWIN; faces.corners().len()];
         let mut corners = Vec::with_capacity(arity * source_face.len());
         for &f in &source_face {
             let (range, base) = (faces.corner_range(f as usize), corners.len());
             for k in 0..arity {
-                // A face turned over keeps its first corner; its edges come in reverse order.
+                // A flipped face keeps its first corner; its edges are in reverse order.
                 let (corner, edge) = if flip[f as usize] { ((arity - k) % arity, arity - 1 - k) } else { (k, k) };
                 corners.push(faces.corners()[range.start + corner]);
                 moved[range.start + edge] = (base + k) as u32;
@@ -73,12 +76,14 @@ impl Sheet {
         }
     }
 
-    /// The corner behind `c` in its face.
+    /// Returns the corner that follows `c` in its face.
     pub fn next(&self, c: usize) -> usize {
         if (c + 1).is_multiple_of(self.arity) { c + 1 - self.arity } else { c + 1 }
     }
 
-    /// Gives every fan of faces a vertex of its own, copies of one vertex side by side, and drops vertices of no face.
+    /// Gives each fan of faces its own vertex and drops unreferenced vertices.
+    ///
+    /// Copies of a vertex get consecutive indices.
     pub(super) fn split_fans(&mut self) -> Pinches {
         let mut fan = UnionFind::new(self.corners.len());
         for (c, &d) in self.twins.iter().enumerate() {
@@ -106,7 +111,8 @@ impl Sheet {
                 source_vertex.push(self.source_vertex[v]);
             }
         }
-        // The first corner of a fan represents it, and comes first.
+        // The first corner of a fan represents it, so its vertex is assigned before those of the
+        // others.
         for c in 0..self.corners.len() {
             let root = fan.find(c as u32) as usize;
             self.corners[c] = if root == c {
@@ -122,7 +128,7 @@ impl Sheet {
         pinches
     }
 
-    /// Number of pieces that are connected across edges.
+    /// Number of components that are connected across edges.
     pub fn pieces(&self) -> usize {
         let mut joined = UnionFind::new(self.source_face.len());
         for (c, &d) in self.twins.iter().enumerate().filter(|(_, d)| **d != Faces::NO_TWIN) {
@@ -131,8 +137,10 @@ impl Sheet {
         joined.labels().1
     }
 
-    /// The corners along every boundary loop, surface on the left, where no vertex has two fans. The longest loop comes
+    /// Returns the corners along every boundary loop, with the surface on the left, longest loop
     /// first.
+    ///
+    /// Every vertex must have one fan of faces.
     pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
         let mut ahead = vec![Faces::NO_TWIN; self.positions.len()];
         let boundary = || (0..self.twins.len()).filter(|&c| self.twins[c] == Faces::NO_TWIN);
@@ -157,20 +165,20 @@ impl Sheet {
         loops.into_iter().map(|(_, along)| along).collect()
     }
 
-    /// The length of a corner's edge.
+    /// The length of the edge that starts at corner `c`.
     pub fn length(&self, c: usize) -> f64 {
         let [a, b] = [c, self.next(c)].map(|c| self.positions[self.corners[c] as usize]);
         crate::geometry::vector::norm(crate::geometry::vector::sub(b, a))
     }
 
-    /// χ = vertices − edges + faces.
+    /// The Euler characteristic χ = vertices − edges + faces.
     pub fn euler(&self) -> i64 {
         let boundary = self.twins.iter().filter(|&&d| d == Faces::NO_TWIN).count();
         let edges = (self.twins.len() + boundary) / 2;
         self.positions.len() as i64 - edges as i64 + self.source_face.len() as i64
     }
 
-    /// The faces, with their twins.
+    /// Returns the faces with their twins.
     pub fn faces(&self) -> Faces {
         let mut faces = Faces::with_capacity(self.source_face.len(), self.corners.len());
         for polygon in self.corners.chunks(self.arity) {
@@ -179,12 +187,12 @@ impl Sheet {
         faces.with_twins(self.twins.clone())
     }
 
-    /// The lengths of `edges`.
+    /// Returns the length of each of `edges`.
     pub fn lengths(&self, edges: &Edges) -> Vec<f64> {
         (0..edges.len()).map(|e| self.length(edges.corners(e)[0] as usize)).collect()
     }
 
-    /// Parts the surface along edges, given by their corners.
+    /// Cuts the surface along edges, given by their corners (both corners of each edge).
     pub fn part(&mut self, corners: impl Iterator<Item = u32>) {
         for c in corners {
             self.twins[c as usize] = Faces::NO_TWIN;
@@ -192,7 +200,8 @@ impl Sheet {
         self.split_fans();
     }
 
-    /// The disc that this is, or the closed surface (without `boundary`).
+    /// Converts to the disc with the boundary loop `boundary`, or to a closed surface if it is
+    /// empty.
     pub fn into_disc(self, boundary: &[u32]) -> OrientedMesh {
         let mut boundary: Vec<u32> = boundary.iter().map(|&c| self.corners[c as usize]).collect();
         let lowest = (0..boundary.len()).min_by_key(|&k| boundary[k]).unwrap_or(0);

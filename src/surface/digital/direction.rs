@@ -1,24 +1,28 @@
-//! The six directions of the voxel grid: `2 axis + 1` along an axis, `2 axis` against it.
+//! The six directions of the voxel grid.
+//!
+//! Direction `2 axis + 1` points along an axis and `2 axis` in the opposite direction.
 
 /// Number of directions.
 pub(super) const DIRECTIONS: u8 = 6;
 
-/// The neighbour of a voxel.
+/// Returns the neighbour of a voxel in a direction.
 pub(super) fn step(mut voxel: [i32; 3], direction: u8) -> [i32; 3] {
     voxel[usize::from(direction / 2)] += if direction % 2 == 1 { 1 } else { -1 };
     voxel
 }
 
-/// The opposite direction.
+/// Returns the opposite direction.
 pub(super) const fn opposite(direction: u8) -> u8 {
     direction ^ 1
 }
 
-/// Where the edges of a surfel lie, by its outward direction: edge `k`, from corner `k` to corner `k + 1`, is on side
-/// `SIDES[direction][k]` of it. Corners are counter-clockwise seen from outside.
+/// Directions of the edges of a surfel, by its outward direction: edge `k`, from corner `k` to
+/// corner `k + 1`, lies on side `SIDES[direction][k]` of the surfel. Corners are counter-clockwise
+/// seen from outside.
 pub(super) const SIDES: [[u8; 4]; 6] = sides();
 
-/// The edge on a side of a surfel: `EDGE_ON[direction][side]`; 4 where there is none.
+/// The inverse of [`SIDES`]: `EDGE_ON[direction][side]` is the edge on that side, or 4 if there is
+/// none.
 pub(super) const EDGE_ON: [[u8; 6]; 6] = edges();
 
 const fn sides() -> [[u8; 4]; 6] {
@@ -26,7 +30,8 @@ const fn sides() -> [[u8; 4]; 6] {
     let mut direction = 0;
     while direction < 6 {
         let axis = direction / 2;
-        // (axis, b, c) is a rotation of (x, y, z), so b turns to c counter-clockwise seen along −axis
+        // (axis, b, c) is a cyclic permutation of (x, y, z): b turns to c counter-clockwise seen
+        // along −axis.
         let (b, c) = ((axis + 1) % 3 * 2, (axis + 2) % 3 * 2);
         let (b, c) = (b as u8, c as u8);
         sides[direction] = if direction % 2 == 1 { [c, b + 1, c + 1, b] } else { [b, c + 1, b + 1, c] };
@@ -49,8 +54,10 @@ const fn edges() -> [[u8; 6]; 6] {
     edges
 }
 
-/// Corner `k` of a surfel relative to the centre of its inner voxel, in half voxels: it lies on the sides of the edges
-/// `k − 1` and `k`.
+/// Returns corner `k` of a surfel relative to the centre of its inner voxel, in units of a voxel's
+/// side.
+///
+/// The corner lies on the edges `k − 1` and `k`.
 pub(super) fn corner(direction: u8, k: usize) -> [f64; 3] {
     let mut offset = [0.0; 3];
     let sides = SIDES[usize::from(direction)];

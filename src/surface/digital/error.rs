@@ -1,54 +1,55 @@
-/// Why a set of voxels has no such digital surface.
+/// A digital surface cannot be made from a set of voxels.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DigitalError {
     /// No voxel is inside.
     #[error("none of the {} × {} × {} voxels is inside: there is no surface; check the threshold", size[0], size[1], size[2])]
     Empty {
-        /// The extent of the box.
+        /// Number of voxels along each axis.
         size: [usize; 3],
     },
-    /// The boundary has fewer components.
+    /// The boundary has fewer components than the requested rank.
     #[error("there is no component {component}: the boundary has {}, counted from 0, of {} surfels", sizes.len(), first(.sizes))]
     NoSuchComponent {
-        /// What was asked for.
+        /// The requested rank.
         component: usize,
         /// Number of surfels of every component, largest first.
         sizes: Vec<usize>,
     },
-    /// More surfels than can be numbered.
+    /// The boundary has more surfels than 32-bit indices can number.
     #[error(
         "the boundary has {surfels} surfels, more than the {} that can be numbered; take a part or a coarser volume",
         Self::MOST_SURFELS
     )]
     TooManySurfels {
-        /// How many there are.
+        /// Number of surfels.
         surfels: u64,
     },
-    /// A box of too many voxels.
+    /// The box has too many voxels.
     #[error("a box of {} × {} × {} voxels is too large (at most {} voxels, {} in a row); take a part or a coarser volume", size[0], size[1], size[2], Self::MOST_VOXELS, i32::MAX)]
     TooLarge {
-        /// The extent of the box.
+        /// Number of voxels along each axis.
         size: [usize; 3],
     },
-    /// Bounds that are NaN, infinite, or in the wrong order.
-    #[error("[{}, {}] is no interval of coordinate {axis}", bounds[0], bounds[1])]
+    /// Bounds are NaN, infinite, or in the wrong order.
+    #[error("[{}, {}] is not an interval (coordinate {axis})", bounds[0], bounds[1])]
     Bounds {
-        /// Coordinate 0, 1 or 2.
+        /// The axis: 0, 1 or 2.
         axis: usize,
-        /// What was given.
+        /// The bounds that were given.
         bounds: [f64; 2],
     },
 }
 
 impl DigitalError {
-    /// Corners are numbered in 32 bits, four to a surfel, and one number says that there is none.
+    /// Largest number of surfels. Their corners, four each, are numbered in 32 bits, and one number
+    /// is reserved for "no corner".
     pub const MOST_SURFELS: u64 = (u32::MAX as u64 - 1) / 4;
 
-    /// 1 GiB of bits.
+    /// Largest number of voxels; they take 1 GiB at one bit each.
     pub const MOST_VOXELS: u64 = 1 << 33;
 }
 
-/// The first few numbers.
+/// Formats the first few numbers.
 fn first(sizes: &[usize]) -> String {
     const SHOWN: usize = 10;
     let shown: Vec<String> = sizes.iter().take(SHOWN).map(usize::to_string).collect();

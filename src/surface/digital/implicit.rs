@@ -1,22 +1,24 @@
 use super::{Digital, DigitalError, Solid, Surfel, words_per_row};
 use crate::geometry::vector::{add, dot, norm, scale, sub};
 
-/// A solid {f ≤ 0} in R³, f differentiable around its surface {f = 0} with ∇f ≠ 0 there.
+/// A solid {f ≤ 0} in R³, where f is differentiable near the surface {f = 0} and ∇f ≠ 0 on it.
 pub trait Implicit {
-    /// f
+    /// Returns f(p).
     fn value(&self, p: [f64; 3]) -> f64;
 
-    /// ∇f
+    /// Returns ∇f(p).
     fn gradient(&self, p: [f64; 3]) -> [f64; 3];
 
-    /// A number L with |f(p) − f(q)| ≤ L |p − q| everywhere: voxels that f says to be far from the surface are then not looked
-    /// at. With ∞, the default, f is evaluated at every voxel.
+    /// Returns a Lipschitz constant L of f: |f(p) − f(q)| ≤ L |p − q| for all p, q.
+    ///
+    /// With a finite L, voxels that are certainly far from the surface are skipped during
+    /// digitisation. With the default ∞, f is evaluated at every voxel.
     fn lipschitz(&self) -> f64 {
         f64::INFINITY
     }
 
-    /// Outward unit normal of the surface between an inner and an outer voxel, given their centres: ∇f/|∇f| at the point of
-    /// the surface that is closest to the point halfway.
+    /// Returns the outward unit normal of the surface between an inner and an outer voxel, given
+    /// their centres: ∇f/|∇f| at the point of the surface that is closest to the midpoint.
     fn normal(&self, inner: [f64; 3], outer: [f64; 3]) -> [f64; 3] {
         let halfway = scale(0.5, add(inner, outer));
         let gradient = self.gradient(closest(self, halfway));
@@ -24,10 +26,10 @@ pub trait Implicit {
     }
 }
 
-/// The point of {f = 0} closest to `p`, which must be nearer to it than the radii of curvature.
+/// Returns the point of {f = 0} closest to `p`; its distance must be below the radii of curvature.
 ///
-/// Newton steps along ∇f onto the surface alternate with steps in its tangent plane toward `p`; the error falls by the factor
-/// distance × curvature each time.
+/// Newton steps along ∇f onto the surface alternate with steps toward `p` in the tangent plane.
+/// Each iteration reduces the error by the factor distance × curvature.
 fn closest(shape: &(impl Implicit + ?Sized), p: [f64; 3]) -> [f64; 3] {
     const MOST_STEPS: usize = 200;
     let mut q = p;
@@ -35,10 +37,10 @@ fn closest(shape: &(impl Implicit + ?Sized), p: [f64; 3]) -> [f64; 3] {
         let gradient = shape.gradient(q);
         let square = dot(gradient, gradient);
         let off = sub(p, q);
-        // the tangential part of p − q, and back onto the surface
+        // The tangential part of p − q, and a Newton step back onto the surface.
         let along = dot(off, gradient) / square;
         let step = sub(sub(off, scale(along, gradient)), scale(shape.value(q) / square, gradient));
-        // 0/0 where the gradient vanishes: what is there is the best that is known
+        // Where the gradient vanishes this is 0/0; the current point is then the best one known.
         if !step.iter().all(|x| x.is_finite()) {
             break;
         }
@@ -50,10 +52,12 @@ fn closest(shape: &(impl Implicit + ?Sized), p: [f64; 3]) -> [f64; 3] {
     q
 }
 
-/// Gauss digitisation: the points of Z³ in the box `bounds` (lower and upper, inclusive) where f ≤ 0.
+/// Gauss digitisation: the points of Z³ with f ≤ 0 in the box `bounds` (lower and upper corner,
+/// inclusive).
 ///
-/// The [`Solid`] has its origin at the lowest lattice point of the box, so its coordinates are those of f. One layer of
-/// voxels around the shape should be in the box: outside of it nothing is inside.
+/// The origin of the [`Solid`] is the lowest lattice point of the box, so its coordinates are those
+/// of f. The box should include a layer of voxels around the shape, because everything outside of
+/// the box counts as outside of the solid.
 ///
 /// ```
 /// use riemap::surface::digital::{Adjacency, Implicit, boundary, digitise, exact_normals};
@@ -79,12 +83,13 @@ fn closest(shape: &(impl Implicit + ?Sized), p: [f64; 3]) -> [f64; 3] {
 /// ```
 ///
 /// # Errors
-/// Bounds that are no box, or a box of more than [`DigitalError::MOST_VOXELS`] voxels.
+/// [`DigitalError::Bounds`] if the bounds are not a box; [`DigitalError::TooLarge`] if it has more
+/// than [`DigitalError::MOST_VOXELS`] voxels.
 pub fn digitise(shape: &dyn Implicit, bounds: [[f64; 3]; 2]) -> Result<Solid, DigitalError> {
     let mut size = [0; 3];
     for axis in 0..3 {
         let [low, high] = [bounds[0][axis].ceil(), bounds[1][axis].floor()];
-        // lattice points must be exact doubles, far from where they run out
+        // Coordinates must stay in the range in which double precision represents all integers.
         if !(low.abs().max(high.abs()) < 1e15 && bounds[0][axis] <= bounds[1][axis]) {
             return Err(DigitalError::Bounds { axis, bounds: [bounds[0][axis], bounds[1][axis]] });
         }
@@ -97,14 +102,14 @@ pub fn digitise(shape: &dyn Implicit, bounds: [[f64; 3]; 2]) -> Result<Solid, Di
     }
     let origin = bounds[0].map(f64::ceil);
     let mut solid = Solid::empty(size, origin);
-    // a little less than the distance that f guarantees, for the rounding of f
+    // Slightly less than the distance that f guarantees, to allow for its rounding.
     let per_value = (1.0 - 1e-9) / shape.lipschitz();
     for k in 0..size[2] {
         for j in 0..size[1] {
             let mut i = 0;
             while i < size[0] {
                 let value = shape.value([origin[0] + i as f64, origin[1] + j as f64, origin[2] + k as f64]);
-                // the same sign up to this voxel, exclusive
+                // The sign of f is the same up to this voxel, exclusive.
                 let next = i + ((value.abs() * per_value) as usize).clamp(1, size[0]);
                 if value <= 0.0 {
                     solid.insert_run(i..next, j, k);
@@ -116,7 +121,8 @@ pub fn digitise(shape: &dyn Implicit, bounds: [[f64; 3]; 2]) -> Result<Solid, Di
     Ok(solid)
 }
 
-/// The outward unit normal of the shape at every surfel of its digitisation (`nf × 3`): [`Implicit::normal`].
+/// Returns the outward unit normal of the shape at every surfel of its digitisation (`nf × 3`), by
+/// [`Implicit::normal`].
 pub fn exact_normals(shape: &dyn Implicit, digital: &Digital) -> Vec<[f64; 3]> {
     let normal = |surfel: &Surfel| {
         let inner = digital.solid.centre(surfel.voxel);

@@ -3,25 +3,28 @@ use super::scan::Scan;
 use super::{Adjacency, DigitalError, Solid, Surfel};
 use crate::surface::{Faces, Surface, UnionFind};
 
-/// Surfels and how they meet: corner `4 f + k` names edge `k` of surfel `f`.
+/// Surfels and their adjacency: corner `4 f + k` stands for edge `k` of surfel `f`.
 pub(super) struct Linked {
     pub surfels: Vec<Surfel>,
-    /// For every corner the one of the same edge in the neighbouring surfel, or [`Faces::NO_TWIN`].
+    /// For each corner, the corner of the same edge in the neighbouring surfel, or
+    /// [`Faces::NO_TWIN`].
     twins: Vec<u32>,
-    /// Where four surfels meet at an edge: a corner of one pair of neighbours, and a corner of the other.
+    /// For each edge at which four surfels meet, a corner of each of the two pairs of neighbours.
     fours: Vec<[u32; 2]>,
 }
 
 impl Linked {
-    /// All surfels of the boundary. At an edge the four voxels around it decide; with `v` inner, `v + n` outer and `t` the
-    /// side on which the edge lies:
+    /// Finds all surfels of the boundary and their neighbours.
+    ///
+    /// The four voxels around an edge determine the neighbour. With `v` the inner voxel, `v + n`
+    /// the outer voxel and `t` the side of the surfel on which the edge lies:
     ///
     /// | v + t | v + t + n | neighbour of (v, n) |
     /// |---|---|---|
     /// | out | out | (v, t) |
     /// | in | out | (v + t, n) |
     /// | in | in | (v + t + n, −t) |
-    /// | out | in | (v, t) of the same inner voxel, or (v + t + n, −t) of the same outer voxel: the adjacency |
+    /// | out | in | (v, t) with the same inner voxel, or (v + t + n, −t) with the same outer voxel, by `adjacency` |
     pub fn new(solid: &Solid, adjacency: Adjacency) -> Result<Self, DigitalError> {
         let scan = Scan::new(solid)?;
         let mut twins = vec![Faces::NO_TWIN; 4 * scan.surfels.len()];
@@ -56,7 +59,9 @@ impl Linked {
         Ok(Linked { surfels: scan.surfels, twins, fours })
     }
 
-    /// The component of every surfel, largest first, of equal ones the one with the first surfel; and their numbers of
+    /// Returns the component of every surfel and the number of surfels of each component.
+    ///
+    /// Components are numbered by decreasing size, those of equal size in the order of their first
     /// surfels.
     pub fn components(&self) -> (Vec<u32>, Vec<usize>) {
         let mut joined = UnionFind::new(self.surfels.len());
@@ -69,7 +74,7 @@ impl Linked {
         let mut size = vec![0_usize; count];
         label.iter().for_each(|&l| size[l as usize] += 1);
         let mut order: Vec<u32> = (0..count as u32).collect();
-        // stable: labels are in the order of first surfels
+        // The sort is stable and labels are in the order of first surfels.
         order.sort_by_key(|&l| std::cmp::Reverse(size[l as usize]));
         let mut rank = vec![0; count];
         for (place, &l) in order.iter().enumerate() {
@@ -80,7 +85,7 @@ impl Linked {
         (label, size)
     }
 
-    /// Some of the surfels, in the same order.
+    /// Returns the `wanted` surfels in the same order.
     pub fn keep(self, wanted: impl Fn(usize) -> bool) -> Self {
         let mut new = vec![Faces::NO_TWIN; self.surfels.len()];
         let mut surfels = Vec::new();
@@ -100,8 +105,10 @@ impl Linked {
         Linked { surfels, twins, fours }
     }
 
-    /// The quads: one vertex per *umbrella*, the surfels around a pointel that are neighbours one of the next, so that a
-    /// pointel at which the surface touches itself has several. Numbered in the order of the corners.
+    /// Makes the quad mesh; its vertices are numbered in the order of the corners.
+    ///
+    /// There is one vertex for each *umbrella*, a chain of neighbouring surfels around a pointel. A
+    /// pointel at which the surface touches itself has several.
     pub fn mesh(self, solid: &Solid) -> (Surface, Vec<Surfel>) {
         const NONE: u32 = u32::MAX;
         let corners = self.twins.len();
@@ -115,7 +122,8 @@ impl Linked {
             let surfel = self.surfels[c / 4];
             let (centre, offset) = (solid.centre(surfel.voxel), corner(surfel.direction(), c % 4));
             positions.push([0, 1, 2].map(|k| centre[k] + offset[k]));
-            // counter-clockwise until the umbrella closes, or else to the boundary and then the other way
+            // Counter-clockwise until the umbrella closes; if it meets the boundary, then also
+            // clockwise.
             let mut next = Some(c);
             while let Some(d) = next.filter(|&d| vertex[d] == NONE) {
                 vertex[d] = v;

@@ -2,21 +2,21 @@ use super::direction::DIRECTIONS;
 use super::solid::{set_bits, words_per_row};
 use super::{DigitalError, Solid, Surfel};
 
-/// All surfels of a solid in scan order of their inner voxels, and where to find one.
+/// All surfels of a solid in scan order of their inner voxels, with an index to find them.
 pub(super) struct Scan {
     pub surfels: Vec<Surfel>,
-    /// The voxels that have surfels.
+    /// One bit for each voxel that has surfels.
     border: Vec<u64>,
-    /// Number of border voxels before each word of `border`.
+    /// Number of such voxels before each word of `border`.
     rank: Vec<u32>,
-    /// First surfel of each border voxel.
+    /// The first surfel of each such voxel.
     first: Vec<u32>,
-    /// Directions of the surfels of each border voxel, one bit each.
+    /// Directions of the surfels of each such voxel, one bit each.
     directions: Vec<u8>,
 }
 
 impl Scan {
-    /// One pass over the words of the solid, 64 voxels at a time.
+    /// Scans the solid in two passes of 64 voxels at a time: one counts, one collects.
     pub fn new(solid: &Solid) -> Result<Self, DigitalError> {
         let size = solid.size();
         if size.iter().any(|&n| n > i32::MAX as usize) {
@@ -59,7 +59,7 @@ impl Scan {
         }
     }
 
-    /// The number of a surfel, which must be one of `solid`.
+    /// Returns the index of a surfel of `solid`; `None` outside of the box. The surfel must exist.
     pub fn find(&self, solid: &Solid, voxel: [i32; 3], direction: u8) -> Option<u32> {
         let (word, bit) = solid.place(voxel)?;
         let below = (1_u64 << bit) - 1;
@@ -69,8 +69,8 @@ impl Scan {
     }
 }
 
-/// Calls `visit` with the first voxel of every word, the word, and its voxels whose neighbour in each of the six directions
-/// is outside.
+/// Calls `visit` for every word with its first voxel, the word, and one word for each of the six
+/// directions that marks the inner voxels whose neighbour in that direction is outside.
 fn each_word(solid: &Solid, mut visit: impl FnMut([i32; 3], u64, [u64; 6])) {
     let [width, height, depth] = solid.size();
     let outside = vec![0; words_per_row(width)];

@@ -2,14 +2,19 @@ use super::linked::Linked;
 use super::{Adjacency, Digital, DigitalError, Solid};
 use crate::surface::Surface;
 
-/// The boundary of `solid`: the unit squares between an inner and an outer voxel, counter-clockwise seen from outside, joined
-/// at their edges as `adjacency` says. Of its connected components the one of rank `component` is taken: 0 is the one with
-/// most surfels, of equal ones that which comes first in scan order.
+/// Returns one connected component of the boundary of `solid` as a quad mesh.
 ///
-/// The result is a closed oriented manifold. Surfels are in scan order of their inner voxels (one voxel's in the order −x,
-/// +x, −y, +y, −z, +z). Vertices are *pointels*, corners of voxels, numbered as the surfels first meet them; where the surface
-/// touches itself at a pointel it has a vertex for each of the fans of surfels around it. Where two edges have the same two
-/// ends the faces state their [twins](crate::surface::Faces::twins). Linear time, 64 voxels at once where nothing changes.
+/// The boundary consists of the unit squares (surfels) between an inner and an outer voxel, with
+/// corners counter-clockwise seen from outside, joined at their edges according to `adjacency`.
+/// `component` is the rank by number of surfels: 0 is the largest; components of equal size are in
+/// scan order of their first surfels.
+///
+/// The result is a closed oriented manifold. Surfels are in scan order of their inner voxels, those
+/// of one voxel in the order −x, +x, −y, +y, −z, +z. Vertices are *pointels*, corners of voxels,
+/// numbered in the order in which the surfels meet them; a pointel at which the surface touches
+/// itself becomes one vertex for each fan of surfels around it. If two edges have the same two
+/// ends, the faces carry [twins](crate::surface::Faces::twins). The time is linear, with 64 voxels
+/// at once where nothing changes.
 ///
 /// ```
 /// use riemap::surface::digital::{Adjacency, Solid, boundary};
@@ -17,7 +22,7 @@ use crate::surface::Surface;
 /// let mut cubes = Solid::empty([2, 2, 1], [0.0; 3]);
 /// cubes.insert([0, 0, 0]);
 /// cubes.insert([1, 1, 0]);
-/// // They share an edge alone: two cubes apart, or one surface of both.
+/// The cubes share only an edge: they are two surfaces or one.
 /// let (surface, apart) = boundary(cubes.clone(), Adjacency::Six, 0)?;
 /// assert_eq!((apart.components, surface.positions().len()), (vec![6, 6], 8));
 /// let (surface, joined) = boundary(cubes, Adjacency::Eighteen, 0)?;
@@ -26,12 +31,13 @@ use crate::surface::Surface;
 /// ```
 ///
 /// # Errors
-/// No voxel inside, no component of that rank, more than 2³⁰ surfels.
+/// [`DigitalError`] if no voxel is inside, no component has that rank, or there are too many
+/// surfels.
 pub fn boundary(solid: Solid, adjacency: Adjacency, component: usize) -> Result<(Surface, Digital), DigitalError> {
     part(solid, adjacency, component, |_| true)
 }
 
-/// The surfels of [`boundary`] that are `wanted`.
+/// Returns the surfels of [`boundary`] for which `wanted` is true.
 pub(crate) fn part(
     solid: Solid,
     adjacency: Adjacency,

@@ -1,4 +1,4 @@
-//! Irregular meshes: regular boundary points, random interior points, Delaunay triangles.
+//! Irregular meshes: evenly spaced boundary vertices, random interior vertices, Delaunay triangles.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,23 +7,27 @@ use super::random::Random;
 use super::{GenerateError, Patch};
 use crate::surface::Faces;
 
-/// Where the interior points come from.
+/// The distribution of the interior points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Points {
-    /// One in each cell of a grid, off its middle by up to 0.35 cells in either direction.
+    /// One point in each cell of a grid, displaced from its centre by up to 0.35 cells along each
+    /// axis.
     Jittered,
-    /// Uniformly random and independent: small angles and neighbours of very different size.
+    /// Independent uniform random points: the mesh has small angles and neighbours of very
+    /// different size.
     Random,
 }
 
-/// Largest displacement of a jittered point, in cells. Boundary edges have the length of a cell and interior points
-/// stay outside of the circles over them as diameters.
+/// Largest displacement of a jittered point, in cells. Boundary edges have the length of a cell,
+/// and interior points stay outside of the circles that have them as diameters, so that the
+/// Delaunay triangulation contains the boundary edges.
 const DISPLACEMENT: f64 = 0.35;
 
-/// Least distance of a random point from the boundary, in cells.
+/// Smallest distance of a random point from the boundary, in cells.
 const MARGIN: f64 = 0.1;
 
-/// Delaunay triangles of the square [−1, 1]², with the grid's number of vertices and its boundary vertices.
+/// Triangulates the square [−1, 1]² with as many vertices, and the same boundary vertices, as the
+/// grid.
 pub(super) fn square(cells: usize, points: Points, random: &mut Random) -> Result<Patch, GenerateError> {
     let h = 2.0 / cells as f64;
     let inner = grid::points(cells).into_iter().filter(|p| p[0].abs() < 1.0 && p[1].abs() < 1.0);
@@ -35,15 +39,18 @@ pub(super) fn square(cells: usize, points: Points, random: &mut Random) -> Resul
     let interior = all.len();
     let line: Vec<f64> = (0..cells).map(|i| (2.0 * i as f64 - cells as f64) / cells as f64).collect();
     for side in 0..4 {
-        // counter-clockwise from (−1, −1); quarter turns are exact, so the sides are exactly straight
+        // Counter-clockwise from (−1, −1). Quarter turns are exact, so the sides are exactly
+        // straight.
         all.extend(line.iter().map(|&x| [[x, -1.0], [1.0, x], [-x, 1.0], [-1.0, -x]][side]));
     }
     triangulate(all, interior)
 }
 
-/// Delaunay triangles of the unit disc, about `(cells + 1)²` vertices, the boundary's evenly spaced.
+/// Triangulates the unit disc with about `(cells + 1)²` vertices; those on the boundary are evenly
+/// spaced.
 pub(super) fn disc(cells: usize, points: Points, random: &mut Random) -> Result<Patch, GenerateError> {
-    // as for a square: area/h² + perimeter/2h + 1 vertices of spacing h; 1/h is the root of that quadratic
+    // As for a square, a mesh of spacing h has area/h² + perimeter/2h + 1 vertices; this is solved
+    // for 1/h.
     let vertices = ((cells + 1) * (cells + 1)) as f64;
     let per_unit = ((PI * PI + 4.0 * PI * (vertices - 1.0)).sqrt() - PI) / TAU;
     let h = 1.0 / per_unit;
@@ -64,9 +71,9 @@ pub(super) fn disc(cells: usize, points: Points, random: &mut Random) -> Result<
         }
         Points::Random => {
             let wanted = (vertices - boundary).max(0.0) as usize;
-            // within the polygon of the boundary points, not merely the circle
+            // Inside the polygon of the boundary points, not only inside the circle.
             let reach = (PI / boundary).cos() - MARGIN * h;
-            // a point of the square is that near the middle with probability above 1/2: few draws
+            // More than half of the points of the square are accepted, so few draws are needed.
             while all.len() < wanted {
                 let p = random.square();
                 if p[0].hypot(p[1]) < reach {
@@ -80,7 +87,7 @@ pub(super) fn disc(cells: usize, points: Points, random: &mut Random) -> Result<
     triangulate(all, interior)
 }
 
-/// Delaunay triangles of points whose last ones, from `interior` on, are the boundary of their convex hull.
+/// Triangulates `points`, of which those from `interior` on are the boundary of the convex hull.
 fn triangulate(points: Vec<[f64; 2]>, interior: usize) -> Result<Patch, GenerateError> {
     let sites: Vec<delaunator::Point> = points.iter().map(|&[x, y]| delaunator::Point { x, y }).collect();
     let triangulation = delaunator::triangulate(&sites);
@@ -94,7 +101,7 @@ fn triangulate(points: Vec<[f64; 2]>, interior: usize) -> Result<Patch, Generate
             faces.push(&[a as u32, c as u32, b as u32]);
         }
     }
-    // Euler's formula for a disc: fails when a point was left out or the hull was missed
+    // Euler's formula for a disc; it fails if a point was omitted or the hull was missed.
     let expected = (2 * points.len()).saturating_sub(2 + points.len() - interior);
     if faces.len() != expected {
         return Err(GenerateError::Triangulation { points: points.len(), expected, found: faces.len() });

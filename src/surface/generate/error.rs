@@ -1,30 +1,30 @@
 use crate::surface::parameters::ParameterError;
 
-/// Why a name does not give a surface.
+/// A surface cannot be generated from a name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GenerateError {
-    /// No row of that name.
+    /// No kind of surface has this name.
     #[error("`{name}` is neither a file nor a generated surface; known surfaces: {known}")]
     UnknownSurface {
-        /// What was asked for.
+        /// The name that was requested.
         name: String,
-        /// All names.
+        /// All known names.
         known: String,
     },
-    /// Something is wrong with the parameters.
+    /// The parameters are wrong.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
-    /// The Delaunay triangulation left points out or is not a disc.
+    /// The Delaunay triangulation omitted points or is not a disc.
     #[error("the Delaunay triangulation of {points} points has {found} faces instead of {expected}; try another seed")]
     Triangulation {
         /// Number of points.
         points: usize,
-        /// 2 points − 2 − boundary points.
+        /// Expected number of faces: 2 points − 2 − boundary points.
         expected: usize,
-        /// Faces of positive area.
+        /// Number of faces of positive area.
         found: usize,
     },
-    /// A digitised shape without the surface that was asked for.
+    /// The digitised shape does not have the requested surface.
     #[error(transparent)]
     Digital(#[from] crate::surface::digital::DigitalError),
 }

@@ -3,18 +3,18 @@
 use super::random::Random;
 use crate::surface::Faces;
 
-/// How a quad is split into two triangles.
+/// The rule by which quads are split into two triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Diagonal {
-    /// Every other one turned, as on a chessboard.
+    /// Directions alternate as on a chessboard.
     Alternate,
-    /// All parallel to (1, 1).
+    /// All diagonals are parallel to (1, 1).
     Same,
-    /// Each by the toss of a coin.
+    /// The direction of each diagonal is random.
     Random,
 }
 
-/// Vertex number of column `i`, row `j`.
+/// The index of the vertex in column `i`, row `j`.
 fn vertex(cells: usize, i: usize, j: usize) -> u32 {
     (j * (cells + 1) + i) as u32
 }
@@ -25,7 +25,7 @@ fn cell(cells: usize, i: usize, j: usize) -> [u32; 4] {
     [v(i, j), v(i + 1, j), v(i + 1, j + 1), v(i, j + 1)]
 }
 
-/// The vertices, `(cells + 1)²`, symmetric to the last bit.
+/// Returns the `(cells + 1)²` vertices, exactly symmetric in floating point.
 pub(super) fn points(cells: usize) -> Vec<[f64; 2]> {
     let line: Vec<f64> = (0..=cells).map(|i| (2.0 * i as f64 - cells as f64) / cells as f64).collect();
     line.iter().flat_map(|&t| line.iter().map(move |&s| [s, t])).collect()
@@ -33,8 +33,9 @@ pub(super) fn points(cells: usize) -> Vec<[f64; 2]> {
 
 /// Moves every interior vertex by up to `amount` cells in s and in t, then applies `chart`.
 ///
-/// A move is halved until the corner triangles of the quads around it are positive in the chart, so every quad stays
-/// strictly convex there, and every way of splitting it is an embedding.
+/// A displacement is halved until the corner triangles of the quads around the vertex have positive
+/// area in the chart. Every quad then stays strictly convex there, so that either diagonal splits
+/// it into two positive triangles.
 pub(super) fn jitter(
     cells: usize,
     amount: f64,
@@ -51,7 +52,7 @@ pub(super) fn jitter(
             let v = vertex(cells, i, j) as usize;
             let (start, home) = (flat[v], moved[v]);
             let mut step = random.square().map(|x| x * amount * 2.0 / cells as f64);
-            // 50 halvings leave nothing of a move that no shorter one can mend: the vertex then stays
+            // After 50 halvings the displacement is negligible; the vertex then stays in place.
             for attempt in 0..50 {
                 moved[v] = chart([start[0] + step[0], start[1] + step[1]]);
                 if around_is_convex(cells, i, j, &moved) {
@@ -80,7 +81,7 @@ pub(super) fn twice_area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// All cells as quads.
+/// Returns all cells as quads.
 pub(super) fn quads(cells: usize) -> Faces {
     let mut faces = Faces::with_capacity(cells * cells, 4 * cells * cells);
     for j in 0..cells {
@@ -91,8 +92,11 @@ pub(super) fn quads(cells: usize) -> Faces {
     faces
 }
 
-/// All cells as two triangles each. With `into_corners` the four corner cells are split through the grid's corner
-/// whatever the rule: on a disc the other diagonal would cut off a triangle whose vertices all lie on the circle.
+/// Returns all cells as two triangles each.
+///
+/// With `into_corners` the diagonals of the four corner cells end in the corners of the grid,
+/// whatever the rule: on a disc the other diagonal would cut off a triangle with all vertices on
+/// the circle.
 pub(super) fn triangles(cells: usize, diagonal: Diagonal, into_corners: bool, random: &mut Random) -> Faces {
     let mut faces = Faces::with_capacity(2 * cells * cells, 6 * cells * cells);
     let (first, last) = (0, cells - 1);
@@ -107,7 +111,7 @@ pub(super) fn triangles(cells: usize, diagonal: Diagonal, into_corners: bool, ra
     faces
 }
 
-/// Whether the cell is split along its first diagonal, from its lower left corner.
+/// Whether the cell is split along its first diagonal, the one from its lower left corner.
 pub(super) fn split_along_first(diagonal: Diagonal, i: usize, j: usize, random: &mut Random) -> bool {
     match diagonal {
         Diagonal::Alternate => (i + j).is_multiple_of(2),
@@ -116,7 +120,7 @@ pub(super) fn split_along_first(diagonal: Diagonal, i: usize, j: usize, random: 
     }
 }
 
-/// The two triangles of a quad.
+/// Appends the two triangles of a quad.
 pub(super) fn push_split(faces: &mut Faces, [a, b, c, d]: [u32; 4], first_diagonal: bool) {
     let halves = if first_diagonal { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
     faces.push(&halves[0]);

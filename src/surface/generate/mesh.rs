@@ -1,28 +1,29 @@
-//! Meshes of the two domains, square and disc, from the parameters that all surfaces over them share.
+//! Meshes of the two domains, square and disc, from the parameters shared by all surfaces over
+//! them.
 
 use super::delaunay::{self, Points};
 use super::grid::{self, Diagonal};
 use super::random::Random;
-use super::{Arguments, GenerateError, Parameter, Patch, Row};
+use super::{Arguments, GenerateError, Parameter, Patch, SurfaceKind};
 
-/// Bounds the memory: 17 million vertices, 1.5 GB as triangles.
+/// Bounds the memory: 17 million vertices take 1.5 GB as triangles.
 const MAX_N: u64 = 4096;
-/// The Delaunay triangulation needs three times the memory.
+/// The same bound for Delaunay triangulations, which need three times the memory.
 const MAX_N_DELAUNAY: u64 = 2048;
 
-/// How the cells of a grid are split.
+/// Parameter: the rule by which the cells of a grid are split.
 pub(super) const DIAGONAL: Parameter =
     Parameter::choice("diagonal", &["alternate", "same", "random"], "how each cell is split into two triangles")
         .only_with("mesh", &["triangle"]);
-/// Seed of the random numbers.
+/// Parameter: the seed of the random numbers.
 pub(super) const SEED: Parameter = Parameter::whole("seed", 0, 0, u64::MAX, "of the random numbers");
 
-impl Row {
-    /// `n` of [`Form::Square`](super::Form::Square) surfaces: vertices along a side.
+impl SurfaceKind {
+    /// Parameter `n` of [`Form::Square`](super::Form::Square) surfaces: vertices along a side.
     pub const VERTICES: &'static [Parameter] =
         &[Parameter::whole("n", 33, 3, MAX_N, "vertices along each side; delaunay: as many in all, at most 2048")];
 
-    /// `n` of [`Form::Disc`](super::Form::Disc) surfaces: cells along a side of the grid.
+    /// Parameter `n` of [`Form::Disc`](super::Form::Disc) surfaces: cells along a side of the grid.
     pub const CELLS: &'static [Parameter] = &[Parameter::whole(
         "n",
         32,
@@ -43,7 +44,7 @@ impl Row {
     ];
 }
 
-/// The rule for splitting cells.
+/// Reads the rule for splitting cells.
 pub(super) fn diagonal(arguments: &Arguments) -> Result<Diagonal, GenerateError> {
     Ok(match arguments.choice("diagonal")? {
         "same" => Diagonal::Same,
@@ -52,7 +53,7 @@ pub(super) fn diagonal(arguments: &Arguments) -> Result<Diagonal, GenerateError>
     })
 }
 
-/// A mesh of the square [−1, 1]² with `n × n` vertices.
+/// Makes a mesh of the square [−1, 1]² with `n × n` vertices.
 pub(super) fn square(arguments: &Arguments) -> Result<Patch, GenerateError> {
     let cells = (arguments.whole("n")? as usize).saturating_sub(1).max(1);
     let mut random = Random::new(arguments.whole("seed")?);
@@ -62,7 +63,8 @@ pub(super) fn square(arguments: &Arguments) -> Result<Patch, GenerateError> {
     grid_mesh(arguments, cells, false, &mut random, |p| p)
 }
 
-/// A mesh of the unit disc. Grids: `n × n` cells of [−1, 1]² under w = (s √(1 − t²/2), t √(1 − s²/2)).
+/// Makes a mesh of the unit disc. Grids have `n × n` cells of [−1, 1]² mapped by w = (s √(1 −
+/// t²/2), t √(1 − s²/2)).
 pub(super) fn disc(arguments: &Arguments) -> Result<Patch, GenerateError> {
     let cells = (arguments.whole("n")? as usize).max(1);
     let mut random = Random::new(arguments.whole("seed")?);

@@ -1,11 +1,12 @@
-//! Generated surfaces: closed forms, many with a conformal map that is known exactly.
+//! Generated surfaces in closed form, many with an exactly known conformal map.
 //!
-//! A surface is named by `kind?parameter=value&…`, for example `sphere?n=64&mesh=delaunay&seed=1`. Everything that is
-//! known of a kind is one [`Row`] of [`SURFACES`]: its parameters, its domain and its closed form. The meshes (quads,
-//! split quads, Delaunay triangles) depend on the domain alone, so a new surface is one closed form and one row.
+//! A surface is named by `kind?parameter=value&…`, for example `sphere?n=64&mesh=delaunay&seed=1`.
+//! Each kind is one [`SurfaceKind`] in the table [`SURFACES`]: its parameters, domain and closed
+//! form. The meshes (quads, split quads, Delaunay triangles) depend only on the domain, so a new
+//! surface is one closed form and one row of the table.
 //!
-//! The same name gives the same mesh, bit for bit, wherever sin, cos and exp round alike; the random numbers are
-//! the same everywhere.
+//! The same name gives the same mesh, bit for bit, on machines whose sin, cos and exp round alike;
+//! the random numbers are the same on all machines.
 
 mod delaunay;
 mod digital;
@@ -26,26 +27,30 @@ pub use super::parameters::{Arguments, Parameter, Values};
 use super::{Faces, Surface};
 pub use error::GenerateError;
 
-/// A generated surface, and what is known of its conformal map.
+/// A generated surface and its exact conformal map, if known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generated {
-    /// The mesh. Faces are counter-clockwise in the domain, so that the exact map preserves orientation.
+    /// The mesh. Faces are counter-clockwise in the domain, so that the exact map preserves
+    /// orientation.
     pub surface: Surface,
-    /// Exact conformal disc coordinates w (one per vertex, |w| ≤ 1, boundary on |w| = 1, both up to rounding, of
-    /// digital surfaces up to O(h), h the side of a voxel over the size of the shape), where they are known.
+    /// Exact conformal disc coordinates w, if known (one per vertex, |w| ≤ 1, |w| = 1 on the
+    /// boundary).
+    ///
+    /// These hold up to rounding, or up to O(h) for digital surfaces, where h is the side of a
+    /// voxel over the size of the shape.
     pub exact: Option<Vec<[f64; 2]>>,
-    /// Exact ratio of periods τ = ω2/ω1 as (re, im), for closed surfaces of genus 1 where it is known.
+    /// Exact ratio of periods τ = ω2/ω1 as (re, im), if known, for closed surfaces of genus 1.
     pub period: Option<[f64; 2]>,
-    /// Digital surfaces: the voxels and the surfels.
+    /// The voxels and surfels of digital surfaces.
     pub digital: Option<Digital>,
-    /// Canonical name, every parameter spelled out: generates this surface again.
+    /// Canonical name with every parameter spelled out; it generates the same surface again.
     pub name: String,
 }
 
-/// Position in R³ of a point of the domain.
+/// The position in R³ of a point of the domain.
 pub type Immersion = Box<dyn Fn([f64; 2]) -> [f64; 3]>;
 
-/// Faces over their domain, before they are put into R³.
+/// A mesh of the domain, before it is immersed in R³.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     /// Domain coordinates, `nv × 2`.
@@ -54,34 +59,36 @@ pub struct Patch {
     pub faces: Faces,
 }
 
-/// How a kind of surface comes about.
+/// The construction of a kind of surface.
 #[derive(Clone, Copy, Debug)]
 pub enum Form {
-    /// An immersion of the square [−1, 1]², its conformal map not known. Parameters [`Row::VERTICES`], [`Row::MESH`].
+    /// An immersion of the square [−1, 1]² whose conformal map is not known exactly; parameters
+    /// [`SurfaceKind::VERTICES`], [`SurfaceKind::MESH`].
     Square(fn(&Arguments) -> Result<Immersion, GenerateError>),
-    /// A conformal immersion of the unit disc |w| ≤ 1. Parameters [`Row::CELLS`], [`Row::MESH`].
+    /// A conformal immersion of the unit disc |w| ≤ 1; parameters [`SurfaceKind::CELLS`],
+    /// [`SurfaceKind::MESH`].
     Disc(fn(&Arguments) -> Result<Immersion, GenerateError>),
-    /// Anything else, made as a whole; the name is filled in afterwards.
+    /// A function that makes the whole surface; the name is filled in afterwards.
     Whole(fn(&Arguments) -> Result<Generated, GenerateError>),
 }
 
 /// A kind of generated surface.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
-    /// What stands before the `?`.
+pub struct SurfaceKind {
+    /// The part of the name before the `?`.
     pub name: &'static str,
-    /// One line: the closed form.
+    /// The closed form, in one line.
     pub about: &'static str,
     /// The parameters, in groups, in the order of the canonical name.
     pub parameters: &'static [&'static [Parameter]],
-    /// Domain and closed form.
+    /// The construction: domain and closed form.
     pub form: Form,
     /// Whether the exact conformal map (or period) is part of the result.
     pub exact: bool,
 }
 
-/// Every kind of surface that has a name.
-pub static SURFACES: &[Row] = &[
+/// The table of all kinds of surfaces.
+pub static SURFACES: &[SurfaceKind] = &[
     graph::COSINES,
     graph::SADDLE,
     graph::GAUSS,
@@ -110,19 +117,20 @@ pub static SURFACES: &[Row] = &[
     digital::BOX,
 ];
 
-/// The surface of that name, among [`SURFACES`].
+/// Generates the surface named `source`, of a kind in [`SURFACES`].
 ///
 /// # Errors
-/// Unknown name or parameter, malformed or excessive value: the message lists what is possible.
+/// An unknown name or parameter, a malformed or excessive value; the message lists what is
+/// possible.
 pub fn generate(source: &str) -> Result<Generated, GenerateError> {
     generate_from(SURFACES, source)
 }
 
-/// The surface of that name, among the kinds of `table`.
+/// Generates the surface named `source`, of a kind in `table`.
 ///
 /// # Errors
-/// As [`generate`].
-pub fn generate_from(table: &[Row], source: &str) -> Result<Generated, GenerateError> {
+/// As for [`generate`].
+pub fn generate_from(table: &[SurfaceKind], source: &str) -> Result<Generated, GenerateError> {
     let (row, arguments) = name::parse(table, source)?;
     let name = arguments.canonical();
     let generated = match row.form {
@@ -141,15 +149,15 @@ pub fn generate_from(table: &[Row], source: &str) -> Result<Generated, GenerateE
     Ok(Generated { name, ..generated })
 }
 
-/// The surface over `points`.
+/// Immerses the mesh with the domain coordinates `points`.
 fn place(points: &[[f64; 2]], faces: Faces, immersion: &Immersion) -> Surface {
     Surface { positions: points.iter().map(|&p| immersion(p)).collect(), faces, face_normals: None }
 }
 
-/// Whether `source` is meant as the name of a generated surface rather than of a file: no such file exists, and what
-/// stands before the `?` has neither a path separator nor a dot (hence no extension).
+/// Whether `source` is meant as the name of a generated surface rather than of a file.
 ///
-/// True also for misspelt names, so that the error of [`generate`] can list the known ones.
+/// This holds if no such file exists and the part before the `?` has neither a path separator nor a
+/// dot. Misspelt names qualify too, so that the error of [`generate`] can list the known ones.
 pub fn is_generated_name(source: &str) -> bool {
     let kind = source.split('?').next().unwrap_or_default();
     !kind.is_empty() && !kind.contains(['/', '\\', '.']) && !Path::new(source).is_file()

@@ -1,4 +1,5 @@
-/// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): the same numbers from the same seed on every machine.
+/// The random number generator SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): the same seed gives
+/// the same numbers on every machine.
 pub(super) struct Random(u64);
 
 impl Random {
@@ -14,18 +15,18 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Uniform on [−1, 1).
+    /// Returns a uniform random number in [−1, 1).
     pub(super) fn symmetric(&mut self) -> f64 {
         const HALF: f64 = (1_u64 << 52) as f64;
         (self.bits() >> 11) as f64 / HALF - 1.0
     }
 
-    /// Uniform on [−1, 1)².
+    /// Returns a uniform random point of [−1, 1)².
     pub(super) fn square(&mut self) -> [f64; 2] {
         [self.symmetric(), self.symmetric()]
     }
 
-    /// Uniform on the square of half side `reach` around `middle`.
+    /// Returns a uniform random point of the square of half side `reach` around `middle`.
     pub(super) fn square_around(&mut self, middle: [f64; 2], reach: f64) -> [f64; 2] {
         let [x, y] = self.square();
         [middle[0] + reach * x, middle[1] + reach * y]

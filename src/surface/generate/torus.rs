@@ -1,11 +1,12 @@
 use std::f64::consts::TAU;
 
 use super::random::Random;
-use super::{Arguments, Form, GenerateError, Generated, Parameter, Row, grid, mesh};
+use super::{Arguments, Form, GenerateError, Generated, Parameter, SurfaceKind, grid, mesh};
 use crate::surface::{Faces, Surface};
 
-/// ((R + r cos θ) cos φ, (R + r cos θ) sin φ, r sin θ), φ the first direction: τ = i r/√(R² − r²).
-pub(super) const TORUS: Row = Row {
+/// The torus ((R + r cos θ) cos φ, (R + r cos θ) sin φ, r sin θ), with φ as first direction and τ =
+/// i r/√(R² − r²).
+pub(super) const TORUS: SurfaceKind = SurfaceKind {
     name: "torus",
     about: "closed torus of revolution, R to the middle of the tube, r its radius; n × n quads; τ = i r/√(R² − r²)",
     parameters: &[&[
@@ -49,7 +50,7 @@ fn torus(arguments: &Arguments) -> Result<Generated, GenerateError> {
     Ok(Generated { surface, exact: None, period: Some(period), digital: None, name: String::new() })
 }
 
-/// R and r, where the tube does not meet itself.
+/// Reads R and r and checks that the tube does not meet itself.
 pub(super) fn radii(arguments: &Arguments) -> Result<(f64, f64), GenerateError> {
     let (big, small) = (arguments.real("R")?, arguments.real("r")?);
     if small > 0.99 * big {

@@ -2,8 +2,8 @@ use super::two_pass::TwoPass;
 use super::{Facets, NormalError, NormalEstimator};
 use crate::surface::parameters::{Arguments, Parameter};
 
-/// What is best as far as it is known: of surfels [`TwoPass`] with its defaults; of other meshes the normals of the file,
-/// else the faces' own.
+/// Chooses the normals that are best as far as known: for surfels [`TwoPass`] with its defaults;
+/// for other meshes the normals of the file, or the faces' own normals if the file has none.
 pub(super) struct Auto;
 
 impl NormalEstimator for Auto {

@@ -3,19 +3,28 @@ use super::{Facets, NormalError, NormalEstimator, outward, rule};
 use crate::geometry::vector::{add, scale, sub};
 use crate::surface::parameters::{Arguments, Parameter};
 
-/// `u ← u + ⅛ Σ_{g ~ f} (u_g − u_f)`, `steps` times, from u = area · normal; then u/|u|.
+/// Averages over face neighbours: `u ← u + ⅛ Σ_{g ~ f} (u_g − u_f)`, repeated `steps` times from u
+/// = area · normal; the result is u/|u|.
 ///
-/// One step is a symmetric average over the face and its neighbours across edges, so every face's normal is handed out
-/// whole: on a plane the average of the surfels' axes is along its normal, for there are as many of each as its normal's
-/// components say. After k steps the weights are close to a Gaussian whose standard deviation, on a flat patch of squares, is
-/// `√k / 2` edges along each axis: `steps = 4 radius²`, the radius being that deviation. Its spectrum falls faster than that
-/// of a weight which ends at a radius, and so does what is left of the staircase; the cost is O(nf · steps).
+/// One step is a symmetric average over a face and its neighbours across edges, so the weights with
+/// which a face's normal is distributed sum to 1. On a digital plane the average of the surfels'
+/// axes is therefore parallel to the plane's normal, because the number of surfels of each axis is
+/// proportional to the components of that normal. After k steps the weights are nearly Gaussian; on
+/// a flat patch of squares their standard deviation along each axis is `√k / 2` edges. Hence `steps
+/// = 4 radius²`, where the radius is that deviation. The cost is O(nf · steps).
 ///
-/// After Fourey, Malgouyres, *Normals estimation for digital surfaces based on convolutions* (Computers & Graphics 33, 2009).
+/// # Rationale
+/// The spectrum of a Gaussian decays faster than that of a weight with compact support, so less of
+/// the staircase is left.
+///
+/// Source: Fourey, Malgouyres, *Normals estimation for digital surfaces based on convolutions*
+/// (Computers & Graphics 33, 2009).
 pub(super) struct Convolution;
 
-/// The default of [`Convolution`], found best or nearly so (root mean square of the angle) on digitised balls, ellipsoids and
-/// tori of 500 to 130 000 surfels: 4.5 L^(2/3) steps.
+/// Defaults of [`Convolution`]: 4.5 L^(2/3) steps.
+///
+/// They were the best or nearly the best (root mean square angle) on digitised balls, ellipsoids
+/// and tori of 500 to 130 000 surfels.
 const RADIUS: [Parameter; 3] = [rule::radius(), rule::factor(1.06), rule::exponent(0.333)];
 
 impl NormalEstimator for Convolution {
@@ -39,7 +48,7 @@ impl NormalEstimator for Convolution {
     }
 }
 
-/// `normals` after `steps` averages.
+/// Returns `normals` after `steps` averages over face neighbours.
 pub(super) fn convolved(facets: &Facets, normals: &[[f64; 3]], steps: usize) -> Vec<[f64; 3]> {
     let unit = 1.0 / (facets.spacing * facets.spacing);
     let mut u: Vec<[f64; 3]> = normals.iter().zip(&facets.area).map(|(&n, a)| scale(a * unit, n)).collect();

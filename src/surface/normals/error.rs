@@ -1,22 +1,22 @@
 use super::NormalSpecError;
 use crate::surface::parameters::ParameterError;
 
-/// No normals.
+/// The normals of a surface cannot be estimated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NormalError {
-    /// The text names no estimator.
+    /// The specification names no estimator.
     #[error(transparent)]
     Spec(#[from] NormalSpecError),
-    /// An estimator's own mistake.
+    /// An estimator used a parameter that it does not declare.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// A face that has no direction.
+    /// A face has no area and hence no direction.
     #[error("face {face} has no area, hence no normal: remove it")]
     NoArea {
         /// Index of the face.
         face: usize,
     },
-    /// Surfels that are not those of the faces.
+    /// The surfels do not belong to the faces.
     #[error("{faces} faces, but {surfels} surfels: they belong to different surfaces")]
     OtherSurfels {
         /// Number of faces.
@@ -24,19 +24,19 @@ pub enum NormalError {
         /// Number of surfels.
         surfels: usize,
     },
-    /// An estimator that looks at voxels.
-    #[error("normals by `{estimator}` are made of voxels, and this surface is a mesh without them")]
+    /// The estimator needs voxels and the surface has none.
+    #[error("the normal estimator `{estimator}` needs voxels, and this surface is a mesh without voxels")]
     NotDigital {
-        /// Its name.
+        /// Name of the estimator.
         estimator: &'static str,
     },
-    /// Exact normals of a shape that is not known.
-    #[error("exact normals are known for generated digital shapes alone ({known}), not for this surface")]
+    /// Exact normals are not known for this surface.
+    #[error("exact normals are known only for generated digital shapes ({known}), not for this surface")]
     NotExact {
-        /// Names of generated digital shapes.
+        /// Names of the generated digital shapes.
         known: String,
     },
-    /// Normals of the file, which has none.
+    /// The input file gives no normals.
     #[error("the input gives no normals for all faces")]
     NotGiven,
 }

@@ -4,33 +4,34 @@ use crate::surface::Surface;
 use crate::surface::digital::Digital;
 use crate::surface::edges::Edges;
 
-/// What an estimator may look at: the faces of a consistently oriented surface.
+/// The faces of a consistently oriented surface, as input for normal estimators.
 #[derive(Clone, Debug)]
 pub struct Facets<'a> {
-    /// The mean of each face's corners (`nf × 3`).
+    /// The mean of the corners of each face (`nf × 3`).
     pub centre: Vec<[f64; 3]>,
-    /// Each face's own unit normal (`nf × 3`), on the side from which it is counter-clockwise: of a quad, along the cross
-    /// product of its diagonals.
+    /// The geometric unit normal of each face (`nf × 3`), on the side from which the face is
+    /// counter-clockwise; for a quad it is parallel to the cross product of the diagonals.
     pub normal: Vec<[f64; 3]>,
-    /// Each face's area seen along its own normal, in the unit of the positions squared (`nf`).
+    /// The area of each face projected along its own normal, in squared units of the positions
+    /// (`nf`).
     pub area: Vec<f64>,
-    /// The length that radii are counted in: the root of the mean area; 1 for voxels.
+    /// The unit of length for radii: the square root of the mean area of a face; 1 for voxels.
     pub spacing: f64,
-    /// The voxels and surfels of a digital surface.
+    /// The voxels and surfels, if the surface is digital.
     pub digital: Option<&'a Digital>,
-    /// The normals that the file gives.
+    /// The normals given by the file, if any.
     pub given: Option<&'a [[f64; 3]]>,
-    /// Whether every edge has a face on both sides.
+    /// Whether every edge has two faces.
     pub closed: bool,
     offsets: Vec<u32>,
     neighbours: Vec<u32>,
 }
 
 impl<'a> Facets<'a> {
-    /// The faces of `surface`, all oriented alike, with `edges` made of them. Of digital surfaces also what is behind them.
+    /// Collects the faces of `surface`, which must be consistently oriented; `edges` are its edges.
     ///
     /// # Errors
-    /// A face without area, or surfels of another surface.
+    /// A face without area; surfels that belong to another surface.
     pub fn new(surface: &'a Surface, edges: &Edges, digital: Option<&'a Digital>) -> Result<Self, NormalError> {
         let faces = &surface.faces;
         if let Some(digital) = digital
@@ -55,14 +56,14 @@ impl<'a> Facets<'a> {
             let corner = |k: usize| surface.positions[polygon[k] as usize];
             let (centre, twice_area) = shape(polygon.len(), corner);
             let length = norm(twice_area);
-            // An area that overflows or vanishes has no direction either.
+            // An area that overflows or vanishes has no direction.
             if !(length.is_finite() && length > 0.0) {
                 return Err(NormalError::NoArea { face: f });
             }
             facets.centre.push(centre);
             facets.area.push(0.5 * length);
             facets.normal.push(match digital {
-                // Free of the rounding of positions.
+                // The exact axis, without the rounding of positions.
                 Some(digital) => digital.surfels[f].normal(),
                 None => scale(1.0 / length, twice_area),
             });
@@ -90,14 +91,15 @@ impl<'a> Facets<'a> {
         self.normal.is_empty()
     }
 
-    /// The faces across the edges of face `f`, in their order; an edge of the boundary has none.
+    /// The faces across the edges of face `f`, in the order of its edges; boundary edges have none.
     pub fn neighbours(&self, f: usize) -> &[u32] {
         &self.neighbours[self.offsets[f] as usize..self.offsets[f + 1] as usize]
     }
 
-    /// Whether the faces are squares of one size along the axes: surfels, be they known as such or not.
+    /// Whether the faces are axis-parallel squares of equal size: surfels, whether or not their
+    /// voxels are known.
     pub fn looks_digital(&self) -> bool {
-        // Positions of a file may have few digits.
+        // Positions in a file may have few digits.
         const ROUNDING: f64 = 1e-4;
         let area = self.spacing * self.spacing;
         self.digital.is_some()
@@ -108,10 +110,12 @@ impl<'a> Facets<'a> {
                 .all(|(n, a)| n.iter().any(|x| x.abs() > 1.0 - ROUNDING) && (a - area).abs() < ROUNDING * area)
     }
 
-    /// The size L of the object, counted in [`Self::spacing`]: `3 V / A` of a closed surface around a volume V, the radius
-    /// of a ball; `√(A/4π)` of one with boundary, the radius of the sphere with its area.
+    /// The size L of the object in units of [`Self::spacing`].
     ///
-    /// The area A of what was digitised is taken as ⅔ of the number of surfels, as it is for the sphere.
+    /// A closed surface of area A around a volume V has L = 3 V / A, the radius for a ball. A
+    /// surface with boundary has L = √(A/4π), the radius of the sphere of the same area. The area
+    /// of a digitised surface is estimated as ⅔ of the number of surfels, which is right for the
+    /// sphere.
     pub fn size(&self) -> f64 {
         let faces_area: f64 = self.area.iter().sum();
         let area = if self.looks_digital() { faces_area * 2.0 / 3.0 } else { faces_area };
@@ -126,7 +130,8 @@ impl<'a> Facets<'a> {
     }
 }
 
-/// The mean of `arity` corners and `Σ (p_k − p_0) × (p_{k+1} − p_0)`: of a quad `d02 × d13`.
+/// Returns the mean of `arity` corners and twice the vector area `Σ (p_k − p_0) × (p_{k+1} − p_0)`,
+/// which is `d02 × d13` for a quad.
 fn shape(arity: usize, corner: impl Fn(usize) -> [f64; 3]) -> ([f64; 3], [f64; 3]) {
     let mut from_first = [0.0; 3];
     let mut twice_area = [0.0; 3];

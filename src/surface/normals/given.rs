@@ -1,10 +1,10 @@
-//! Normals that are known: nothing is estimated.
+//! Normals that are known, so that nothing is estimated.
 
 use super::{Facets, NormalError, NormalEstimator};
 use crate::surface::generate::SURFACES;
 use crate::surface::parameters::{Arguments, Parameter};
 
-/// The normals of the shape that was digitised, at the point of it next to the surfel's centre.
+/// The exact normals of the shape that was digitised, at its closest point to the surfel's centre.
 pub(super) struct Exact;
 
 impl NormalEstimator for Exact {
@@ -28,7 +28,7 @@ impl NormalEstimator for Exact {
     }
 }
 
-/// The normals that the file gives.
+/// The normals given by the mesh file.
 pub(super) struct File;
 
 impl NormalEstimator for File {

@@ -5,12 +5,15 @@ use crate::surface::parameters::{Arguments, Parameter};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// `n_f ∝ Σ_g a_g (1 − d(f, g)/r)⁺ n_g`: the average of the faces' normals, weighted by area and distance.
+/// Averages normals over a ball: `n_f ∝ Σ_g a_g (1 − d(f, g)/r)⁺ n_g` with areas a and distances d.
 ///
-/// The distance from centre to centre is Euclidean, and the faces are those that are joined to f within the ball; or it is
-/// geodesic, the length of the shortest path across edges from centre to centre. On surfels such paths are staircases whose
-/// length depends on their direction: the Euclidean ball halves the angular error. Cost: O(nf r²), O(nf r² log r) for geodesic
-/// distances.
+/// With the Euclidean distance between centres, the sum runs over the faces connected to f within
+/// the ball. The geodesic distance is the length of the shortest path across edges from centre to
+/// centre. The cost is O(nf r²), or O(nf r² log r) for geodesic distances.
+///
+/// # Rationale
+/// On surfels the geodesic paths are staircases whose length depends on their direction; the
+/// Euclidean ball halves the angular error.
 pub(super) struct Hat;
 
 const PARAMETERS: [Parameter; 4] = [
@@ -20,7 +23,7 @@ const PARAMETERS: [Parameter; 4] = [
     Parameter::choice("ball", &["euclidean", "geodesic"], "how distances are measured"),
 ];
 
-/// Below 1 no neighbour would count.
+/// Smallest radius, in edges: below 1 no neighbour would have a positive weight.
 pub(super) const LEAST_RADIUS: f64 = 2.0;
 
 impl NormalEstimator for Hat {
@@ -42,7 +45,7 @@ impl NormalEstimator for Hat {
     }
 }
 
-/// The averages over balls of `radius` edges.
+/// Returns the averages over balls of `radius` edges.
 pub(super) fn averaged(facets: &Facets, radius: f64, geodesic: bool) -> Vec<[f64; 3]> {
     let radius = radius * facets.spacing;
     let unit = 1.0 / (facets.spacing * facets.spacing);
@@ -66,14 +69,14 @@ pub(super) fn averaged(facets: &Facets, radius: f64, geodesic: bool) -> Vec<[f64
     normals
 }
 
-/// Visits balls, with what it needs for that kept from one to the next.
+/// A traversal of balls that reuses its working memory from one centre to the next.
 struct Walk<'a, 'b> {
     facets: &'a Facets<'b>,
-    /// Shortest distance known, of the faces that `seen` marks.
+    /// The shortest known distance of each face that `seen` marks.
     distance: Vec<f64>,
-    /// The last centre from which a face was seen.
+    /// The last centre from which each face was reached.
     seen: Vec<u32>,
-    /// Distances are not negative: their bits are in their order.
+    /// Distances as bits: these have the same order, because distances are not negative.
     heap: BinaryHeap<Reverse<(u64, u32)>>,
     queue: Vec<u32>,
 }
@@ -89,7 +92,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         }
     }
 
-    /// Dijkstra's algorithm from `f`, up to `radius`.
+    /// Visits the faces at geodesic distance below `radius` from `f` (Dijkstra's algorithm).
     fn geodesic(&mut self, f: usize, radius: f64, mut visit: impl FnMut(usize, f64)) {
         let centre = f as u32;
         self.distance[f] = 0.0;
@@ -113,7 +116,8 @@ impl<'a, 'b> Walk<'a, 'b> {
         }
     }
 
-    /// The faces joined to `f` by faces with centres closer than `radius`, breadth first.
+    /// Visits the faces whose centres are closer than `radius` to that of `f` and that are
+    /// connected to `f` by such faces, breadth first.
     fn euclidean(&mut self, f: usize, radius: f64, mut visit: impl FnMut(usize, f64)) {
         let centre = f as u32;
         self.seen[f] = centre;

@@ -7,21 +7,23 @@ use crate::geometry::vector::{add, dot, scale};
 use crate::surface::digital::Surfel;
 use crate::surface::parameters::{Arguments, Parameter};
 
-/// The eigenvector of the smallest eigenvalue of the covariance matrix of the voxels in the ball of that radius around the
-/// surfel's centre, on the side away from their mean.
+/// Estimates a normal from the covariance of the voxels in a ball around the surfel's centre: the
+/// eigenvector of the smallest eigenvalue, on the side away from the mean of the voxels.
 ///
-/// Half a ball has the variance `0.059 r²` across its plane and `0.2 r²` along it. The voxels are counted in runs along rows,
-/// in whole numbers: O(nf r²), and nothing is rounded before the eigenvector.
+/// Half a ball has variance `0.059 r²` across its plane and `0.2 r²` along it. Voxels are counted
+/// in runs along rows, in integers; only the eigenvector is subject to rounding. The cost is O(nf
+/// r²). The ball must not reach through the solid: for a tube of voxels the radius must be less
+/// than the tube's.
 ///
-/// After Lachaud, Coeurjolly, Levallois, *Robust and convergent curvature and normal estimators with digital integral
-/// invariants* (Modern Approaches to Discrete Curvature, LNM 2184, 2017). Their radius `k h^(1/3)` in units of the object is
-/// `k L^(2/3)` voxels, `exponent=0.667` here; the default was the better one on ellipsoids and tori of 2000 to 30 000 surfels.
-/// The ball must not reach through the solid: a tube of voxels needs a radius below its own.
+/// Source: Lachaud, Coeurjolly, Levallois, *Robust and convergent curvature and normal estimators
+/// with digital integral invariants* (Modern Approaches to Discrete Curvature, LNM 2184, 2017).
+/// Their radius `k h^(1/3)` in units of the object is `k L^(2/3)` voxels, that is,
+/// `exponent=0.667`. The default was better on ellipsoids and tori of 2000 to 30 000 surfels.
 pub(super) struct IntegralInvariant;
 
 const RADIUS: [Parameter; 3] = [rule::radius(), rule::factor(1.7), rule::exponent(0.5)];
 
-/// Below it the ball holds too few voxels to span a direction.
+/// Smallest radius, in voxels: smaller balls hold too few voxels to determine a direction.
 const LEAST_RADIUS: f64 = 2.0;
 
 impl NormalEstimator for IntegralInvariant {
@@ -54,14 +56,16 @@ impl NormalEstimator for IntegralInvariant {
     }
 }
 
-/// The eigenvector of the smallest eigenvalue of `Σ p pᵀ − (Σ p)(Σ p)ᵀ / Σ 1`; where that is a multiple one, as of a rod or of
-/// a single voxel, the part of `own` in its eigenspace.
+/// Returns the eigenvector of the smallest eigenvalue of `Σ p pᵀ − (Σ p)(Σ p)ᵀ / Σ 1`.
+///
+/// If that eigenvalue is multiple (a rod or a single voxel), returns the projection of `own` onto
+/// its eigenspace.
 fn least(m: &Moments, own: [f64; 3]) -> [f64; 3] {
-    // Beside the largest eigenvalue; the entries are whole numbers but for one division.
+    // Relative to the largest eigenvalue. The entries are integers except for one division.
     const EQUAL: f64 = 1e-10;
     let [x, y, z] = m.first.map(|s| s as f64);
     let [xx, yy, zz, yz, zx, xy] = m.second.map(|s| s as f64);
-    // The ball holds the surfel's inner voxel at least.
+    // The ball contains at least the surfel's inner voxel.
     let n = m.count.max(1) as f64;
     let (xy, yz, zx) = (xy - x * y / n, yz - y * z / n, zx - z * x / n);
     let covariance = Matrix3::new(xx - x * x / n, xy, zx, xy, yy - y * y / n, yz, zx, yz, zz - z * z / n);

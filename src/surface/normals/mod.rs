@@ -1,12 +1,13 @@
-//! Normals of the faces of a surface, estimated: what ρ of a digital surface is made of.
+//! Estimated normals of the faces of a surface, from which ρ of a digital surface is computed.
 //!
-//! The faces of a digital surface know six directions, however fine the voxels; the surface that was digitised is in their
-//! averages. An estimator is named by `name?parameter=value&…`, for example `hat?radius=4&ball=euclidean`. A new one is
-//! one file and one row of [`NORMAL_ESTIMATORS`].
+//! The faces of a digital surface have only six directions, however fine the voxels are; averages
+//! of them recover the normals of the surface that was digitised. An estimator is named by
+//! `name?parameter=value&…`, for example `hat?radius=4&ball=euclidean`. A new estimator is one file
+//! and one row of [`NORMAL_ESTIMATORS`].
 //!
-//! Radii are counted in edges of faces (of voxels: in voxels). Where none is given it follows from the size L of the object
-//! in the same unit, [`Facets::size`]: `radius = c L^exponent`. With h = 1/L the radius in units of the object is then
-//! `c h^(1 − exponent)`.
+//! Radii are counted in edges of faces (for voxels: in voxels). The default radius depends on the
+//! size L of the object in the same unit ([`Facets::size`]): `radius = c L^exponent`. With h = 1/L
+//! this is `c h^(1 − exponent)` in units of the object.
 
 mod auto;
 mod convolution;
@@ -29,26 +30,26 @@ pub use spec::{NormalSpec, NormalSpecError};
 use super::parameters::{Arguments, Parameter};
 use crate::geometry::vector::{dot, norm, scale, sub};
 
-/// A way to estimate the normals of faces.
+/// An estimator of the normals of faces.
 pub trait NormalEstimator: Sync {
-    /// Name for `--normals` and the report.
+    /// The name, as used in options and in the report.
     fn name(&self) -> &'static str;
 
-    /// One line for `riemap list`.
+    /// A description of one line.
     fn about(&self) -> &'static str;
 
-    /// What may stand behind the `?`.
+    /// The parameters that can follow the `?`.
     fn parameters(&self) -> &'static [Parameter];
 
-    /// Unit normals, one per face (`nf × 3`), on the side of the faces' own normals. `arguments` has all of
-    /// [`parameters`](Self::parameters).
+    /// Returns unit normals, one per face (`nf × 3`), on the same side as the faces' own normals.
+    /// `arguments` has a value for each of [`parameters`](Self::parameters).
     ///
     /// # Errors
-    /// What the surface lacks: voxels, normals of its own.
+    /// The surface lacks what the estimator needs: voxels, or normals in the file.
     fn estimate(&self, facets: &Facets, arguments: &Arguments) -> Result<Vec<[f64; 3]>, NormalError>;
 }
 
-/// All estimators by name.
+/// The table of all estimators.
 pub static NORMAL_ESTIMATORS: &[&dyn NormalEstimator] = &[
     &auto::Auto,
     &two_pass::TwoPass,
@@ -60,18 +61,20 @@ pub static NORMAL_ESTIMATORS: &[&dyn NormalEstimator] = &[
     &given::File,
 ];
 
-/// The normals of `facets` by the estimator that `spec` names, for example `auto`.
+/// Estimates the normals of `facets` with the estimator that `spec` names, for example `auto`.
 ///
 /// # Errors
-/// A text that names no estimator; a surface that does not suit it.
+/// `spec` names no estimator, or the surface does not suit it.
 pub fn estimate(spec: &str, facets: &Facets) -> Result<Vec<[f64; 3]>, NormalError> {
     spec.parse::<NormalSpec>()?.estimate(facets)
 }
 
-/// The unit vector along `mean`, turned into the tangent plane of `own` where it points to the other side; `own` where
-/// nothing is left of it.
+/// Returns the unit vector along `mean`, made to lie on the side of `own`.
+///
+/// A `mean` on the opposite side is projected onto the tangent plane of `own`. If nothing is left
+/// of it, the result is `own`.
 fn outward(mean: [f64; 3], own: [f64; 3]) -> [f64; 3] {
-    // Sums of unit vectors with weights of sum 1: below this, rounding decides.
+    // `mean` is an average of unit vectors with weights of sum 1: a smaller length is rounding.
     const NOTHING: f64 = 1e-9;
     let along = dot(mean, own);
     let mean = if along < 0.0 { sub(mean, scale(along, own)) } else { mean };

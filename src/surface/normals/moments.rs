@@ -1,35 +1,37 @@
-//! Moments of a set of voxels in balls around surfels, by runs of voxels in rows.
+//! Moments of the voxels in balls around surfels, computed by runs of voxels in rows.
 
 use crate::surface::digital::{Solid, Surfel};
 
-/// The rows of voxels that a ball around the centre of a surfel meets, one of six kinds: by the surfel's axis and side.
+/// A ball around the centre of a surfel as rows of voxels. There are six kinds, by the direction of
+/// the surfel.
 pub(super) struct Ball {
-    /// Centre minus centre of the inner voxel, doubled.
+    /// Centre of the ball minus centre of the inner voxel, times 2.
     centre: [i64; 3],
-    rows: Vec<Row>,
+    rows: Vec<BallRow>,
 }
 
-/// Voxels `first ..= last` of the row (j, k), counted from the surfel's inner voxel.
-struct Row {
+/// The voxels `first ..= last` of the row (j, k), relative to the surfel's inner voxel.
+struct BallRow {
     j: i32,
     k: i32,
     first: i32,
     last: i32,
 }
 
-/// `Σ 1`, `Σ p_i`, `Σ p_i p_j` over voxel centres p, from the surfel's centre and doubled: whole numbers.
+/// Moments `Σ 1`, `Σ p_i`, `Σ p_i p_j` over voxel centres p relative to the surfel's centre, times
+/// 2 so that they are integers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Moments {
     /// Number of voxels.
     pub count: i64,
-    /// Σ p
+    /// Σ p.
     pub first: [i64; 3],
-    /// Σ p pᵀ: xx, yy, zz, yz, zx, xy.
+    /// Σ p pᵀ in the order xx, yy, zz, yz, zx, xy.
     pub second: [i64; 6],
 }
 
 impl Ball {
-    /// The voxels whose centres are not farther than `radius` from the surfel's.
+    /// Finds the voxels whose centres are at distance at most `radius` from the surfel's centre.
     pub(super) fn new(axis: u8, positive: bool, radius: f64) -> Self {
         let mut centre = [0; 3];
         centre[usize::from(axis)] = if positive { 1 } else { -1 };
@@ -45,14 +47,14 @@ impl Ball {
                 let first = (-reach..=reach).find(|&i| inside(i, j, k));
                 let last = (-reach..=reach).rev().find(|&i| inside(i, j, k));
                 if let (Some(first), Some(last)) = (first, last) {
-                    rows.push(Row { j, k, first, last });
+                    rows.push(BallRow { j, k, first, last });
                 }
             }
         }
         Ball { centre, rows }
     }
 
-    /// The moments of the voxels of `solid` in the ball around the centre of `surfel`.
+    /// Computes the moments of the voxels of `solid` in the ball around the centre of `surfel`.
     pub(super) fn moments(&self, solid: &Solid, surfel: &Surfel) -> Moments {
         let mut m = Moments::default();
         let [width, ..] = solid.size();
@@ -65,7 +67,7 @@ impl Ball {
             if words.is_empty() || first >= end {
                 continue;
             }
-            // Doubled x of voxel 0 of the row.
+            // Twice the x coordinate of voxel 0 of the row.
             let zero = -(2 * i64::from(surfel.voxel[0]) + self.centre[0]);
             let (mut n, mut x, mut xx) = (0, 0, 0);
             let last_word = (end - 1) / 64;
@@ -81,7 +83,8 @@ impl Ball {
                     let start = word.trailing_zeros();
                     let length = (word >> start).trailing_ones();
                     word &= u64::MAX.checked_shl(start + length).unwrap_or(0);
-                    // l numbers in steps of 2 around the middle c: Σ = l c, Σ² = l (c² + (l² − 1)/3)
+                    // The l numbers with step 2 around the mean c have Σ = l c and Σ² = l (c² + (l²
+                    // − 1)/3).
                     let l = i64::from(length);
                     let c = zero + 2 * (64 * at as i64 + i64::from(start)) + l - 1;
                     n += l;
@@ -105,7 +108,7 @@ mod tests {
 
     #[test]
     fn moments_are_the_sums_over_the_voxels_of_the_ball() {
-        // Rows of two words and a half; a pattern without symmetry.
+        // Rows of two and a half words, filled with a pattern without symmetry.
         let mut solid = Solid::empty([150, 12, 11], [0.0; 3]);
         for k in 0..11 {
             for j in 0..12 {

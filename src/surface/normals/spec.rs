@@ -4,34 +4,34 @@ use std::str::FromStr;
 use super::{Facets, NORMAL_ESTIMATORS, NormalError, NormalEstimator};
 use crate::surface::parameters::{Arguments, ParameterError};
 
-/// An estimator and its parameters, as `name?parameter=value&…` says.
+/// An estimator with its parameters, written as `name?parameter=value&…`.
 #[derive(Clone)]
 pub struct NormalSpec {
     estimator: &'static dyn NormalEstimator,
     arguments: Arguments,
 }
 
-/// A text that names no estimator.
+/// A text does not specify an estimator.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NormalSpecError {
-    /// No row of that name.
+    /// No estimator has this name.
     #[error("unknown normal estimator `{name}`; known: {known}")]
     Unknown {
-        /// What was asked for.
+        /// The name that was requested.
         name: String,
-        /// All names.
+        /// All known names.
         known: String,
     },
-    /// Something is wrong with the parameters.
+    /// The parameters are wrong.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
 }
 
 impl NormalSpec {
-    /// The estimator that `text` names, among those of `table`.
+    /// Parses the specification of an estimator of `table`.
     ///
     /// # Errors
-    /// Unknown name or parameter, value out of range: the message lists what is possible.
+    /// An unknown name or parameter, or a value out of range; the message lists what is possible.
     pub fn parse_from(table: &[&'static dyn NormalEstimator], text: &str) -> Result<Self, NormalSpecError> {
         let (name, query) = text.split_once('?').unwrap_or((text, ""));
         let estimator = table.iter().copied().find(|e| e.name() == name).ok_or_else(|| {
@@ -42,15 +42,15 @@ impl NormalSpec {
         Ok(NormalSpec { estimator, arguments })
     }
 
-    /// The estimator's name, without parameters.
+    /// The estimator's name without parameters.
     pub fn name(&self) -> &'static str {
         self.estimator.name()
     }
 
-    /// The normals (`nf × 3`).
+    /// Estimates the normals (`nf × 3`).
     ///
     /// # Errors
-    /// A surface that does not suit the estimator.
+    /// The surface does not suit the estimator.
     pub fn estimate(&self, facets: &Facets) -> Result<Vec<[f64; 3]>, NormalError> {
         self.estimator.estimate(facets, &self.arguments)
     }
@@ -71,7 +71,7 @@ impl FromStr for NormalSpec {
     }
 }
 
-/// Every parameter that has an effect is spelled out.
+/// The canonical form, in which every parameter that has an effect is spelled out.
 impl fmt::Display for NormalSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.arguments.canonical())

@@ -1,7 +1,8 @@
 use super::{Facets, NormalError, NormalEstimator};
 use crate::surface::parameters::{Arguments, Parameter};
 
-/// The face's own normal, `e3` of a surfel: what the paper's figure 11 shows not to converge.
+/// The face's own normal (`e3` of a surfel), which does not converge, as figure 11 of the paper
+/// shows.
 pub(super) struct Surfel;
 
 impl NormalEstimator for Surfel {

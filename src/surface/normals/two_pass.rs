@@ -2,12 +2,15 @@ use super::whole::on_whole;
 use super::{Facets, NormalError, NormalEstimator, convolution, hat, rule};
 use crate::surface::parameters::{Arguments, Parameter};
 
-/// [`Hat`](hat::Hat) over a Euclidean ball, normalised; then `radius² / 2` steps of [`Convolution`](convolution::Convolution).
+/// [`Hat`](hat::Hat) over a Euclidean ball, normalised, followed by `radius² / 2` steps of
+/// [`Convolution`](convolution::Convolution).
 ///
-/// An average around a surfel leans toward the surfel's own axis: its own plane is closest to it. The error of neighbours with
-/// different axes then differs in sign, and ρ, which depends on n relative to the axis, sees it whole: τ of a digital torus is
-/// off by more than the angles let expect. A second average mixes the axes. With the default the angles are about two thirds of
-/// those by convolution alone, at the same error of τ.
+/// # Rationale
+/// A single average around a surfel is biased toward the surfel's own axis, because its own plane
+/// is closest. Neighbours with different axes then have errors of different sign, and ρ, which
+/// depends on n relative to the axis, is fully affected: τ of a digital torus has a larger error
+/// than the angles suggest. A second average mixes the axes. With the default radius the angular
+/// errors are about two thirds of those of convolution alone, at the same error of τ.
 pub(super) struct TwoPass;
 
 const PARAMETERS: [Parameter; 3] = [rule::radius(), rule::factor(1.9), rule::exponent(0.333)];

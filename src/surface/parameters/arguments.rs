@@ -8,7 +8,7 @@ enum Value {
     Choice(&'static str),
 }
 
-/// The parameters of one name, all with a value within their range.
+/// The parameters of a named item, each with a value in its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arguments {
     subject: &'static str,
@@ -16,11 +16,12 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Reads `query`, that is `parameter=value&…` or nothing, where `declared` may stand; defaults for the rest.
+    /// Reads `query`, which is empty or `parameter=value&…`; parameters that are not given get
+    /// their defaults.
     ///
     /// # Errors
-    /// Unknown or repeated parameters, values that are malformed, not allowed, or without effect. The messages begin
-    /// with `subject`, the name before the `?`.
+    /// Unknown or repeated parameters; values that are malformed, out of range, or without effect.
+    /// The messages begin with `subject`, the name before the `?`.
     pub fn parse<'a>(
         subject: &'static str,
         declared: impl IntoIterator<Item = &'a Parameter>,
@@ -58,12 +59,12 @@ impl Arguments {
         Ok(arguments)
     }
 
-    /// The defaults.
+    /// Returns the default of every parameter.
     pub fn defaults<'a>(subject: &'static str, declared: impl IntoIterator<Item = &'a Parameter>) -> Self {
         Arguments { subject, values: declared.into_iter().map(|p| (*p, default(&p.values))).collect() }
     }
 
-    /// A parameter declared as a whole number.
+    /// Returns the value of a parameter declared as a whole number.
     ///
     /// # Errors
     /// [`ParameterError::Undeclared`].
@@ -74,7 +75,7 @@ impl Arguments {
         }
     }
 
-    /// A parameter declared as a real number.
+    /// Returns the value of a parameter declared as a real number.
     ///
     /// # Errors
     /// [`ParameterError::Undeclared`].
@@ -85,7 +86,7 @@ impl Arguments {
         }
     }
 
-    /// A parameter declared as a choice.
+    /// Returns the value of a parameter declared as a choice.
     ///
     /// # Errors
     /// [`ParameterError::Undeclared`].
@@ -96,7 +97,7 @@ impl Arguments {
         }
     }
 
-    /// The error for a value that another parameter forbids.
+    /// Returns the error for a value that is excluded by another parameter.
     pub fn out_of_range<E: From<ParameterError>>(
         &self,
         parameter: &'static str,
@@ -107,7 +108,7 @@ impl Arguments {
         ParameterError::OutOfRange { subject: self.subject, parameter, value, circumstance, range }.into()
     }
 
-    /// The name with every parameter that has an effect spelled out.
+    /// The canonical name, in which every parameter that has an effect is spelled out.
     pub fn canonical(&self) -> String {
         let effective = self.values.iter().filter(|(p, _)| self.obstacle(p).is_none());
         let pairs: Vec<String> = effective.map(|(p, value)| format!("{}={}", p.name, text(*value))).collect();
@@ -123,7 +124,7 @@ impl Arguments {
         ParameterError::Undeclared { subject: self.subject, parameter }
     }
 
-    /// What keeps parameter `p` from having an effect: the parameter that decides and its value.
+    /// If parameter `p` has no effect, returns the parameter that is responsible and its value.
     fn obstacle(&self, p: &Parameter) -> Option<(&'static str, String)> {
         let (condition, needed) = p.only_with?;
         let value = self.find(condition).map(text).unwrap_or_default();
@@ -157,7 +158,7 @@ fn read(subject: &'static str, parameter: &Parameter, value: &str) -> Result<Val
     };
     let read = match parameter.values {
         Values::Whole { min, max, .. } => {
-            // digits that overflow are a number too large, not a malformed one
+            // Digits that overflow are a number that is too large, not a malformed number.
             let digits = !value.is_empty() && value.bytes().all(|b| b.is_ascii_digit());
             let x = value.parse::<u64>().ok();
             if !digits {
@@ -167,7 +168,7 @@ fn read(subject: &'static str, parameter: &Parameter, value: &str) -> Result<Val
         }
         Values::Real { min, max, .. } => {
             let x: f64 = value.parse().map_err(|_| malformed("number"))?;
-            // + 0.0: a negative zero would show in the canonical name
+            // + 0.0 turns a negative zero, which would show in the canonical name, into zero.
             (min..=max).contains(&x).then_some(Value::Real(x + 0.0))
         }
         Values::Choice(words) => words.iter().find(|&&w| w == value).map(|&w| Value::Choice(w)),

@@ -1,80 +1,82 @@
-/// What is wrong with the part behind the `?` of `name?parameter=value&…`.
+/// The part behind the `?` of `name?parameter=value&…` is wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ParameterError {
-    /// No such parameter.
+    /// There is no such parameter.
     #[error("{subject} has no parameter `{parameter}`; known: {known}")]
     UnknownParameter {
-        /// Whose parameter: the name before the `?`.
+        /// The name before the `?`.
         subject: &'static str,
-        /// What was asked for.
+        /// The parameter that was requested.
         parameter: String,
-        /// Its parameters with their defaults.
+        /// The known parameters with their defaults.
         known: String,
     },
-    /// A part between `&`s that is not `parameter=value`.
+    /// A part between two `&` is not of the form `parameter=value`.
     #[error("{subject}: `{text}` is not of the form parameter=value; parameters: {known}")]
     NotAPair {
-        /// Whose parameter: the name before the `?`.
+        /// The name before the `?`.
         subject: &'static str,
         /// The part.
         text: String,
-        /// Its parameters with their defaults.
+        /// The known parameters with their defaults.
         known: String,
     },
-    /// A parameter that stands twice.
+    /// A parameter is given twice.
     #[error("{subject}: parameter `{parameter}` is given twice")]
     Repeated {
-        /// Whose parameter: the name before the `?`.
+        /// The name before the `?`.
         subject: &'static str,
         /// The parameter.
         parameter: &'static str,
     },
-    /// Not a number of the right kind.
+    /// A value is not a number of the required type.
     #[error("{subject}: {parameter}={value}: `{value}` is not a {expected}; allowed: {range}")]
     Malformed {
-        /// Whose parameter: the name before the `?`.
+        /// The name before the `?`.
         subject: &'static str,
         /// The parameter.
         parameter: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: String,
         /// "whole number" or "number".
         expected: &'static str,
-        /// Allowed values.
+        /// The allowed values.
         range: String,
     },
-    /// A number outside of the parameter's range, or a word that is not among its choices.
+    /// A number is outside of its range, or a word is not among the choices.
     #[error("{subject}: {parameter}={value} is not allowed{circumstance}; allowed: {range}")]
     OutOfRange {
-        /// Whose parameter: the name before the `?`.
+        /// The name before the `?`.
         subject: &'static str,
         /// The parameter.
         parameter: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: String,
-        /// When the range depends on another parameter: which (" with mesh=delaunay"), else empty.
+        /// The condition under which this range holds (" with mesh=delaunay"); empty if it always
+        /// holds.
         circumstance: String,
-        /// Allowed values.
+        /// The allowed values.
         range: String,
     },
-    /// A parameter that does nothing beside the others.
+    /// A parameter has no effect in combination with the others.
     #[error("{subject}: {parameter} has no effect with {condition}={value}; it needs {condition}={needed}")]
     NoEffect {
-        /// Whose parameter: the name before the `?`.
+        /// The name before the `?`.
         subject: &'static str,
         /// The parameter without effect.
         parameter: &'static str,
-        /// The parameter that decides.
+        /// The parameter that decides whether there is an effect.
         condition: &'static str,
-        /// Its value.
+        /// The value of that parameter.
         value: String,
-        /// Values that would give the parameter an effect.
+        /// The values of that parameter that would give an effect.
         needed: String,
     },
-    /// A parameter that is asked for by the very row that does not declare it with that type.
-    #[error("the table is wrong: {subject} uses the parameter `{parameter}` but does not declare it so")]
+    /// A row of the table uses a parameter that it does not declare with this type (a programming
+    /// error).
+    #[error("the table is wrong: {subject} uses the parameter `{parameter}` but does not declare it with this type")]
     Undeclared {
-        /// Whose parameter: the name before the `?`.
+        /// The name before the `?`.
         subject: &'static str,
         /// The parameter.
         parameter: &'static str,

@@ -1,6 +1,7 @@
-//! Names with parameters, `name?parameter=value&…`: of generated surfaces, of normal estimators.
+//! Names with parameters, `name?parameter=value&…`, for generated surfaces and normal estimators.
 //!
-//! What may stand behind the `?` is declared by [`Parameter`]s; [`Arguments`] are their values, all within their ranges.
+//! [`Parameter`]s declare what can follow the `?`; [`Arguments`] are their values, all within their
+//! ranges.
 
 mod arguments;
 mod error;
@@ -10,7 +11,7 @@ pub use arguments::Arguments;
 pub use error::ParameterError;
 pub use parameter::{Parameter, Values};
 
-/// The parameters with their defaults, as they would stand behind the `?`.
+/// Formats the parameters with their defaults as they would follow the `?`.
 pub fn synopsis<'a>(declared: impl IntoIterator<Item = &'a Parameter>) -> String {
     let pairs: Vec<String> = declared.into_iter().map(|p| format!("{}={}", p.name, p.values.default_text())).collect();
     pairs.join("&")

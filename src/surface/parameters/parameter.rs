@@ -1,22 +1,23 @@
 use std::fmt;
 
-/// A parameter of something that has a name: a generated surface, a normal estimator.
+/// A parameter of a named item: a generated surface or a normal estimator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// What stands before the `=`.
+    /// The part before the `=`.
     pub name: &'static str,
-    /// One line.
+    /// A description of one line.
     pub about: &'static str,
     /// Type, default and range.
     pub values: Values,
-    /// `(name, values)`: has an effect only when the parameter `name`, declared earlier, has one of these values.
+    /// `(name, values)`: the parameter has an effect only if the parameter `name`, declared
+    /// earlier, has one of these values.
     pub only_with: Option<(&'static str, &'static [&'static str])>,
 }
 
 /// Type, default and range of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Values {
-    /// min ≤ value ≤ max.
+    /// An integer, min ≤ value ≤ max.
     Whole {
         /// Default.
         default: u64,
@@ -25,7 +26,7 @@ pub enum Values {
         /// Largest value.
         max: u64,
     },
-    /// min ≤ value ≤ max.
+    /// A real number, min ≤ value ≤ max.
     Real {
         /// Default.
         default: f64,
@@ -34,34 +35,34 @@ pub enum Values {
         /// Largest value.
         max: f64,
     },
-    /// One of some words; the first is the default.
+    /// A word from a list; the first is the default.
     Choice(&'static [&'static str]),
 }
 
 impl Parameter {
-    /// A whole number.
+    /// Declares a whole number.
     pub const fn whole(name: &'static str, default: u64, min: u64, max: u64, about: &'static str) -> Self {
         Parameter { name, about, values: Values::Whole { default, min, max }, only_with: None }
     }
 
-    /// A real number.
+    /// Declares a real number.
     pub const fn real(name: &'static str, default: f64, min: f64, max: f64, about: &'static str) -> Self {
         Parameter { name, about, values: Values::Real { default, min, max }, only_with: None }
     }
 
-    /// One of some words; the first is the default.
+    /// Declares a choice between words; the first is the default.
     pub const fn choice(name: &'static str, words: &'static [&'static str], about: &'static str) -> Self {
         Parameter { name, about, values: Values::Choice(words), only_with: None }
     }
 
-    /// Restricts the parameter to some values of an earlier one.
+    /// Restricts the parameter to some values of a parameter that is declared earlier.
     pub const fn only_with(self, name: &'static str, values: &'static [&'static str]) -> Self {
         Parameter { only_with: Some((name, values)), ..self }
     }
 }
 
 impl Values {
-    /// The default, as it stands in a name.
+    /// The default, as it is written in a name.
     pub fn default_text(&self) -> String {
         match self {
             Values::Whole { default, .. } => default.to_string(),

@@ -1,5 +1,7 @@
-//! What is wrong, or only noteworthy, with a mesh: each finding names its first offender, counts the rest, and says
-//! what to do. Nothing is repaired here but the orientation of whole patches, and that is reported.
+//! The defects and peculiarities of a mesh. Each finding names the first offender and counts the
+//! rest.
+//!
+//! Nothing is repaired here except the orientation of whole patches, which is reported.
 
 use std::fmt;
 
@@ -7,62 +9,63 @@ use super::finding;
 use crate::surface::Surface;
 use crate::surface::topology::Topology;
 
-/// What follows from a finding.
+/// The consequence of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// The surface cannot be mapped as it is.
     Fatal,
-    /// Mended before mapping.
+    /// Repaired before mapping.
     Repaired,
-    /// Harmless to the map; worth knowing.
+    /// Harmless to the map, but worth knowing.
     Note,
 }
 
-/// One kind of defect: its first offender (faces, vertices and ends of edges count from 0) and `count`, how many there
-/// are.
+/// A kind of defect with its first offender and the number `count` of offenders. Indices of faces
+/// and vertices count from 0.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum Finding {
-    /// No face at all.
+    /// There is no face.
     NoFaces,
     /// A coordinate is NaN or infinite.
     NotFinite { vertex: u32, count: usize },
-    /// The surface is so large or so small that squares of areas leave the range of doubles.
+    /// The surface is so large or so small that squares of areas overflow or underflow.
     OutOfRange { extent: f64 },
-    /// Faces of different or unsupported numbers of corners: `(corners, faces)` in ascending order.
+    /// The faces have different or unsupported numbers of corners; `(corners, faces)` in ascending
+    /// order.
     Polygons { arities: Vec<(usize, usize)>, first: u32 },
-    /// A face runs through a vertex twice.
+    /// A face contains a vertex twice.
     RepeatedVertex { face: u32, vertex: u32, count: usize },
     /// Two faces have the same vertices.
     DuplicateFaces { first: [u32; 2], count: usize },
-    /// An edge joins two vertices at the same place.
+    /// An edge joins two vertices at the same position.
     ZeroLengthEdges { edge: [u32; 2], count: usize, fatal: bool },
-    /// A face has no area that doubles can tell from zero.
+    /// The area of a face vanishes in double precision.
     ZeroAreaFaces { face: u32, count: usize },
-    /// Such faces, each with a shape of this height over its length in its place.
+    /// Faces without area that are replaced by surrogates with this ratio of height to length.
     Surrogates { face: u32, count: usize, height: f64 },
-    /// An edge of three or more faces.
+    /// An edge has three or more faces.
     NonManifoldEdges { edge: [u32; 2], faces: Vec<u32>, count: usize },
-    /// A vertex where the surface touches itself.
+    /// The surface touches itself at a vertex.
     NonManifoldVertices { vertex: u32, fans: u32, count: usize },
-    /// A component that has no consistent orientation; `edge`: one where it fails.
+    /// A component has no consistent orientation; it fails at `edge`.
     NonOrientable { component: usize, edge: [u32; 2] },
-    /// Faces turned over so that neighbours agree.
+    /// Faces were flipped so that neighbours agree.
     Reoriented { face: u32, count: usize },
-    /// More than one component.
+    /// There is more than one component.
     Components { count: usize, faces: Vec<usize> },
     /// The (only) component is closed.
     Closed { genus: u64 },
     /// The (only) component is neither closed nor a disc.
     NotADisc { boundary_loops: Vec<usize>, genus: u64 },
-    /// Vertices of no face.
+    /// Vertices belong to no face.
     Unreferenced { vertex: u32, count: usize },
-    /// Vertices in use that lie where another one does.
+    /// A vertex in use has the same position as another one.
     CoincidentVertices { first: [u32; 2], count: usize },
 }
 
 impl Finding {
-    /// What follows for mapping.
+    /// The consequence for mapping.
     pub fn severity(&self) -> Severity {
         match self {
             Finding::Reoriented { .. } | Finding::Surrogates { .. } => Severity::Repaired,
@@ -87,7 +90,8 @@ impl fmt::Display for Finding {
             Finding::OutOfRange { extent } => {
                 write!(
                     out,
-                    "the surface extends over {extent:e}, and outside 1e-60 to 1e60 doubles do not hold squares of areas"
+                    "the surface extends over {extent:e}, outside the range 1e-60 to 1e60 in which double precision can \
+                     represent squares of areas"
                 )
             }
             Finding::Polygons { arities, first } => {
@@ -102,7 +106,7 @@ impl fmt::Display for Finding {
                 write!(
                     out,
                     "{} a vertex twice: face {face} has vertex {vertex}",
-                    counted(*count, "face runs through", "faces run through")
+                    counted(*count, "face contains", "faces contain")
                 )
             }
             Finding::DuplicateFaces { first: [a, b], count } => {
@@ -126,8 +130,8 @@ impl fmt::Display for Finding {
                 let faces = counted(*count, "face has", "faces have");
                 write!(
                     out,
-                    "{faces} no area, face {face} the first: mapped as if a vertex were lifted off the longest edge (quads: as a rectangle) to \
-                     {height} of its length"
+                    "{faces} no area, the first is face {face}: mapped as if a vertex were lifted off the longest edge \
+                     (quads: as a rectangle) to {height} of its length"
                 )
             }
             Finding::NonManifoldEdges { edge: [a, b], faces, count } => {
@@ -151,7 +155,8 @@ impl fmt::Display for Finding {
             Finding::NonOrientable { component, edge: [a, b] } => {
                 write!(
                     out,
-                    "component {component} is not orientable: no choice of sides agrees across the edge {a}–{b}"
+                    "component {component} is not orientable: its faces cannot be oriented consistently across the edge \
+                     {a}–{b}"
                 )
             }
             Finding::Reoriented { face, count } => {
@@ -187,7 +192,7 @@ impl fmt::Display for Finding {
             Finding::CoincidentVertices { first: [a, b], count } => {
                 write!(
                     out,
-                    "{} where another one does: vertices {a} and {b}",
+                    "{} at the position of another: vertices {a} and {b}",
                     counted(*count, "vertex lies", "vertices lie")
                 )
             }
@@ -200,17 +205,18 @@ fn counted(count: usize, one: &str, many: &str) -> String {
     if count == 1 { format!("1 {one}") } else { format!("{count} {many}") }
 }
 
-/// A surface understood: its topology and everything that was found, the gravest first.
+/// The topology of a surface and all findings, in order of severity.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
-    /// What the faces' indices say.
+    /// The combinatorial properties of the faces.
     pub topology: Topology,
     /// All findings, the fatal ones first.
     pub findings: Vec<Finding>,
 }
 
 impl Diagnosis {
-    /// Examines `surface` in linear time (duplicates and coincidences by sorting).
+    /// Examines `surface` in linear time, except for sorting to find duplicates and coincident
+    /// vertices.
     pub fn new(surface: &Surface) -> Self {
         let topology = Topology::new(surface);
         let mut findings = finding::of_polygons(surface);
@@ -222,7 +228,8 @@ impl Diagnosis {
         Diagnosis { topology, findings }
     }
 
-    /// The same where faces without area are mapped by [`Surrogates`](crate::surface::Surrogates) of this height.
+    /// Returns the diagnosis in which faces without area are repaired by
+    /// [`Surrogates`](crate::surface::Surrogates) of this height.
     #[must_use]
     pub fn with_surrogates(mut self, height: f64) -> Self {
         let mut lifted = false;
@@ -232,13 +239,13 @@ impl Diagnosis {
                 lifted = true;
             }
         }
-        // Edges without length are those of such faces; of quads alone there are others.
+        // Edges without length belong to such faces; only in quad meshes are there others.
         self.findings.retain(|f| !(lifted && matches!(f, Finding::ZeroLengthEdges { fatal: true, .. })));
         self.findings.sort_by_key(Finding::severity);
         self
     }
 
-    /// The findings that keep the surface from being mapped to the plane.
+    /// The findings that prevent the surface from being mapped to the plane.
     pub fn fatal(&self) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(|f| f.severity() == Severity::Fatal)
     }

@@ -1,18 +1,19 @@
-//! The searches behind [`Diagnosis`](super::diagnosis::Diagnosis), one function per group of findings.
+//! The searches for [`Diagnosis`](super::diagnosis::Diagnosis), one function per group of findings.
 
 use super::diagnosis::Finding;
 use crate::geometry::vector;
 use crate::surface::Surface;
 use crate::surface::topology::Topology;
 
-/// Twice a face's area over its longest extent squared, below which doubles cannot tell the area from zero: four
-/// roundings of a product of lengths.
+/// A face counts as having no area if twice its area over its squared extent is below this: four
+/// rounding errors of a product of lengths.
 pub(crate) const ZERO_AREA: f64 = 4.0 * f64::EPSILON;
 
-/// Extents for which products of four lengths, from the extent down to 1e-16 of it, neither overflow nor vanish.
+/// Extents for which products of four lengths, from the extent down to 1e-16 of it, neither
+/// overflow nor underflow.
 const EXTENTS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
-/// The first of some offenders and their number.
+/// The first offender and the number of offenders.
 struct Tally<T> {
     first: Option<T>,
     count: usize,
@@ -33,7 +34,7 @@ impl<T> Tally<T> {
     }
 }
 
-/// Numbers of corners, repeated corners, duplicate faces.
+/// Finds unsupported numbers of corners, repeated corners and duplicate faces.
 pub(super) fn of_polygons(surface: &Surface) -> Vec<Finding> {
     let faces = &surface.faces;
     if faces.is_empty() {
@@ -63,7 +64,8 @@ pub(super) fn of_polygons(surface: &Surface) -> Vec<Finding> {
 
 fn duplicate_faces(surface: &Surface) -> Option<Finding> {
     let faces = &surface.faces;
-    // Faces of the same vertex set have the same smallest vertex: bucket by it, compare within buckets only.
+    // Faces with the same vertex set have the same smallest vertex: only faces in one bucket are
+    // compared.
     let mut by_smallest: Vec<(u32, u32)> =
         (0..faces.len()).map(|f| (faces.get(f).iter().copied().min().unwrap_or(0), f as u32)).collect();
     by_smallest.sort_unstable();
@@ -82,7 +84,7 @@ fn duplicate_faces(surface: &Surface) -> Option<Finding> {
     Tally::of(pairs.into_iter()).report(|first, count| Finding::DuplicateFaces { first, count })
 }
 
-/// Coordinates that are no numbers, edges without length, faces without area.
+/// Finds coordinates that are not finite, edges without length and faces without area.
 pub(super) fn of_geometry(surface: &Surface, topology: &Topology) -> Vec<Finding> {
     let x = &surface.positions;
     let not_finite = Tally::of((0..x.len()).filter(|&v| !x[v].iter().all(|t| t.is_finite())));
@@ -105,7 +107,7 @@ pub(super) fn of_geometry(surface: &Surface, topology: &Topology) -> Vec<Finding
     .collect()
 }
 
-/// The longest side of the box around the vertices in use.
+/// The longest side of the bounding box of the vertices in use.
 fn extent(surface: &Surface, topology: &Topology) -> f64 {
     let used = || (0..surface.positions.len()).filter(|&v| topology.fans[v] > 0).map(|v| surface.positions[v]);
     let side = |k: usize| {
@@ -115,7 +117,7 @@ fn extent(surface: &Surface, topology: &Topology) -> f64 {
     (0..3).map(side).fold(0.0, f64::max)
 }
 
-/// Whether the vector area ½ Σ (xᵢ − x₀) × (xᵢ₊₁ − x₀) vanishes to rounding.
+/// Whether the vector area ½ Σ (xᵢ − x₀) × (xᵢ₊₁ − x₀) vanishes up to rounding.
 pub(crate) fn has_no_area(positions: &[[f64; 3]], polygon: &[u32]) -> bool {
     let Some((&first, others)) = polygon.split_first() else { return true };
     let origin = positions[first as usize];
@@ -129,12 +131,13 @@ pub(crate) fn has_no_area(positions: &[[f64; 3]], polygon: &[u32]) -> bool {
     vector::norm(twice_area) <= ZERO_AREA * extent * extent
 }
 
-/// Edges of three faces or more, vertices of several fans, one-sidedness, flips.
+/// Finds edges of three or more faces, vertices of several fans, non-orientable components and
+/// flips.
 pub(super) fn of_manifoldness(topology: &Topology) -> Vec<Finding> {
     let Topology { edges, orientation, fans, .. } = topology;
     let faces_at = |e: usize| {
         let mut faces: Vec<u32> = edges.corners(e).iter().map(|&c| edges.face_of_corner[c as usize]).collect();
-        // A face that runs through an edge twice is no crowd; it is reported for that.
+        // A face that contains an edge twice is reported elsewhere.
         faces.dedup();
         faces
     };
@@ -166,7 +169,7 @@ pub(super) fn of_manifoldness(topology: &Topology) -> Vec<Finding> {
     findings
 }
 
-/// What keeps the whole surface from being one disc.
+/// Finds the reason why the whole surface is not a single disc.
 pub(super) fn of_shape(topology: &Topology) -> Option<Finding> {
     match topology.components.as_slice() {
         [] => None,
@@ -174,7 +177,7 @@ pub(super) fn of_shape(topology: &Topology) -> Option<Finding> {
             let genus = only.genus().filter(|_| only.orientable)?;
             match only.boundary_loops.as_slice() {
                 [] => Some(Finding::Closed { genus }),
-                // Pinched at most, which is said elsewhere.
+                // At most it touches itself at a vertex, which is reported elsewhere.
                 [_] if genus == 0 => None,
                 loops => Some(Finding::NotADisc { boundary_loops: loops.to_vec(), genus }),
             }
@@ -187,7 +190,7 @@ pub(super) fn of_shape(topology: &Topology) -> Option<Finding> {
     }
 }
 
-/// Vertices of no face, and vertices in use at the same place.
+/// Finds vertices of no face, and vertices in use at the same position.
 pub(super) fn of_vertices(surface: &Surface, topology: &Topology) -> Vec<Finding> {
     let fans = &topology.fans;
     let unused = (0..fans.len()).filter(|&v| fans[v] == 0);

@@ -6,79 +6,82 @@ use crate::surface::edges::{Edges, next_in};
 use crate::surface::orientation::same_direction;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// A basis of the first homology of a closed surface of genus 1, and the dual basis of its cohomology:
+/// A basis γ1, γ2 of the first homology of a closed surface of genus 1 and the dual basis α1, α2 of
+/// its cohomology:
 ///
 /// ```text
 /// ∮_{γ_j} α_k = δ_jk        ∫ α1 ∧ α2 = 1
 /// ```
 ///
-/// Where the faces are seen counter-clockwise γ1 crosses γ2 from left to right, so that a map that preserves orientation and
-/// has the period ω_k along γ_k has `Im(ω2/ω1) > 0`.
+/// Seen from the side on which faces are counter-clockwise, γ1 crosses γ2 from left to right. A map
+/// that preserves orientation and has the period ω_k along γ_k therefore has `Im(ω2/ω1) > 0`.
 #[derive(Clone, Debug)]
 pub struct Homology {
-    /// `(∫α1, ∫α2)` along the directed edge of every corner: −1, 0 or 1. Opposite corners have opposite values, and the
-    /// values sum to zero around every face.
+    /// `(∫α1, ∫α2)` along the directed edge of every corner: −1, 0 or 1. Opposite corners have
+    /// opposite values, and the values around every face sum to zero.
     pub form: Vec<[i8; 2]>,
-    /// For each class of loops (up to direction) that one edge closes with the tree the shortest of them.
+    /// The shortest loop of each class (up to direction) among those that consist of tree paths and
+    /// one edge.
     generators: Vec<Cycle>,
 }
 
 /// A closed walk along edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
-    /// `(∮α1, ∮α2)`: the walk is homologous to that many times γ1 and γ2.
+    /// `(∮α1, ∮α2)`: the walk is homologous to that combination of γ1 and γ2.
     pub class: [i64; 2],
-    /// The vertices in order, the first one not repeated at the end.
+    /// The vertices in order; the first is not repeated at the end.
     pub vertices: Vec<u32>,
     /// The edge from each vertex to the next.
     pub edges: Vec<u32>,
-    /// Sum of the lengths of the edges.
+    /// Total length of the edges.
     pub length: f64,
 }
 
-/// The surface has no pair of loops that this takes.
+/// The surface has no pair of loops along which a map can be periodic.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HomologyError {
-    /// A boundary.
+    /// The surface has a boundary.
     #[error("the surface has a boundary of {edges} edges, and a periodic map needs a closed surface")]
     Boundary {
-        /// Boundary edges.
+        /// Number of boundary edges.
         edges: usize,
     },
-    /// More than one component.
+    /// The surface has more than one connected component.
     #[error("the surface has more than one connected component: split the mesh, and map one at a time")]
     Disconnected,
-    /// A sphere.
-    #[error("the surface is closed and has genus 0, so no loop to be a period")]
+    /// The surface is a sphere.
+    #[error("the surface is closed and has genus 0, so it has no loops that could have periods")]
     Sphere,
-    /// More handles than one.
+    /// The surface has more than one handle.
     #[error("the surface has genus {genus}, and only surfaces of genus 1 have periodic maps to the plane")]
     Genus {
-        /// Its genus.
+        /// Genus of the surface.
         genus: usize,
     },
-    /// Faces that disagree on the side of the surface.
-    #[error("face {face} and one beside it are not oriented consistently: orient them first")]
+    /// Neighbouring faces are oriented inconsistently.
+    #[error("face {face} and one of its neighbours are not oriented consistently: orient them first")]
     Orientation {
-        /// The first face that runs through an edge in the direction of its neighbour.
+        /// The first face that traverses an edge in the same direction as its neighbour.
         face: usize,
     },
-    /// A class of more loops than is sensible.
-    #[error("a loop of class {}, {} is too long to be written down", class[0], class[1])]
+    /// A loop of this class would have too many edges.
+    #[error("a loop of class {}, {} has too many edges", class[0], class[1])]
     TooLong {
         /// The class.
         class: [i64; 2],
     },
 }
 
-/// The longest walk of [`Homology::cycle`], in edges.
+/// Largest number of edges of a walk from [`Homology::cycle`].
 const LONGEST: u64 = 1 << 28;
 
 impl Homology {
-    /// The basis made of shortest loops from the vertex `root`: see [`TreeCotree`]. `edges` are those of `disc.faces`.
+    /// Computes the basis from shortest loops through the vertex `root`; see [`TreeCotree`].
+    /// `edges` are the edges of `disc.faces`.
     ///
     /// # Errors
-    /// A surface that is not closed, connected, oriented, of genus 1.
+    /// The surface is not closed, connected, consistently oriented and of genus 1.
     pub fn new(disc: &OrientedMesh, edges: &Edges, root: u32) -> Result<Self, HomologyError> {
         let boundary = (0..edges.len()).filter(|&e| edges.corners(e).len() < 2).count();
         if boundary > 0 {
@@ -120,11 +123,13 @@ impl Homology {
         Ok(Homology { form, generators })
     }
 
-    /// A short closed walk of the given class. It passes through the root of the basis, but for what it would run to and
-    /// fro, and is simple for the classes of the shortest loops.
+    /// Returns a short closed walk of the given class.
+    ///
+    /// The walk passes through the root of the basis unless steps back and forth next to the root
+    /// cancel; for the classes of the shortest loops it is simple.
     ///
     /// # Errors
-    /// A class so large that the walk would have more than 2²⁸ edges.
+    /// [`HomologyError::TooLong`] if the walk would have more than 2²⁸ edges.
     pub fn cycle(&self, disc: &OrientedMesh, class: [i64; 2]) -> Result<Cycle, HomologyError> {
         let too_long = || HomologyError::TooLong { class };
         let mut best: Option<(f64, [(usize, i64); 2])> = None;
@@ -155,7 +160,8 @@ impl Homology {
         Ok(self.concatenated(disc, class, word))
     }
 
-    /// Generators one behind the other, each the given number of times, negative ones backwards.
+    /// Concatenates generators, each repeated the given number of times, backwards if that is
+    /// negative.
     fn concatenated(&self, disc: &OrientedMesh, class: [i64; 2], word: [(usize, i64); 2]) -> Cycle {
         let mut walk: Vec<(u32, u32)> = Vec::new();
         for (k, times) in word {
@@ -163,7 +169,7 @@ impl Homology {
             let n = vertices.len();
             for _ in 0..times.unsigned_abs() {
                 for i in 0..n {
-                    // Backwards the edge of the vertex before leads on.
+                    // Backwards, the edge of the preceding vertex leads on.
                     let step =
                         if times > 0 { (vertices[i], edges[i]) } else { (vertices[(n - i) % n], edges[n - 1 - i]) };
                     push_or_cancel(&mut walk, step);
@@ -179,7 +185,7 @@ impl Homology {
     }
 }
 
-/// A face that runs through an edge in the same direction as its neighbour.
+/// Returns a face that traverses an edge in the same direction as its neighbour, if there is one.
 fn disagreeing(disc: &OrientedMesh, edges: &Edges) -> Option<usize> {
     let placed = |c: u32| (edges.face_of_corner[c as usize] as usize, c as usize);
     let edge = (0..edges.len()).find(|&e| match *edges.corners(e) {
@@ -189,7 +195,7 @@ fn disagreeing(disc: &OrientedMesh, edges: &Edges) -> Option<usize> {
     Some(edges.face_of_corner[edges.corners(edge)[0] as usize] as usize)
 }
 
-/// Twice ∫ α1 ∧ α2, the area of all faces in the plane of (∫α1, ∫α2): 2 or −2.
+/// Twice ∫ α1 ∧ α2, summed over the faces in the plane of (∫α1, ∫α2): 2 or −2.
 fn twice_degree(disc: &OrientedMesh, form: &[[i8; 2]]) -> i64 {
     let mut twice = 0;
     for face in 0..disc.faces.len() {
@@ -203,9 +209,9 @@ fn twice_degree(disc: &OrientedMesh, form: &[[i8; 2]]) -> i64 {
     twice
 }
 
-/// Of the loops that one edge closes with the tree the shortest of each class.
+/// Returns the shortest loop of each class among those that consist of tree paths and one edge.
 fn generators(graph: &EdgeGraph, system: &TreeCotree, form: &[[i8; 2]]) -> Vec<Cycle> {
-    // A tree cuts a torus open along at most three classes of edges.
+    // Such loops on a torus have at most three classes.
     let mut shortest: Vec<([i64; 2], f64, usize)> = Vec::new();
     for e in 0..graph.edges.len() {
         let c = graph.edges.corners(e)[0] as usize;
@@ -224,7 +230,7 @@ fn generators(graph: &EdgeGraph, system: &TreeCotree, form: &[[i8; 2]]) -> Vec<C
     shortest.into_iter().map(|(class, length, c)| cycle_through(graph, system, class, length, c)).collect()
 }
 
-/// From the root to the corner `c`, along its edge, and back.
+/// Returns the loop from the root to the corner `c`, along its edge, and back to the root.
 fn cycle_through(graph: &EdgeGraph, system: &TreeCotree, class: [i64; 2], length: f64, c: usize) -> Cycle {
     let faces = graph.faces;
     let face = graph.edges.face_of_corner[c] as usize;
@@ -247,7 +253,7 @@ fn cycle_through(graph: &EdgeGraph, system: &TreeCotree, class: [i64; 2], length
     Cycle { class, vertices, edges, length }
 }
 
-/// A step back along the edge just taken takes that one away.
+/// Appends a step, or removes the last one if the new step goes back along it.
 fn push_or_cancel(walk: &mut Vec<(u32, u32)>, step: (u32, u32)) {
     if walk.last().is_some_and(|last| last.1 == step.1) {
         walk.pop();
@@ -256,7 +262,7 @@ fn push_or_cancel(walk: &mut Vec<(u32, u32)>, step: (u32, u32)) {
     }
 }
 
-/// A closed walk without the steps that its end takes back from its beginning.
+/// Removes the steps at the end of a closed walk that reverse those at its beginning.
 fn without_tail(walk: &[(u32, u32)]) -> &[(u32, u32)] {
     let mut rest = walk;
     while let [first, middle @ .., last] = rest

@@ -1,4 +1,5 @@
-//! Components, boundary loops, Euler numbers, genus, vertex fans: what the faces' indices alone say.
+//! Combinatorial properties of a mesh: components, boundary loops, Euler characteristics, genus,
+//! vertex fans.
 
 pub mod diagnosis;
 mod finding;
@@ -12,7 +13,7 @@ use super::orientation::Orientation;
 use super::union_find::UnionFind;
 use crate::surface::{Faces, Surface};
 
-/// One edge-connected part of a surface.
+/// A part of a surface that is connected across edges.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Component {
     /// Its lowest face index.
@@ -21,29 +22,33 @@ pub struct Component {
     pub faces: usize,
     /// Number of vertices of its faces.
     pub vertices: usize,
-    /// Number of fans of faces around these: as many as vertices, or more where the surface touches itself.
+    /// Number of fans of faces around these vertices; more than `vertices` if the surface touches
+    /// itself.
     pub fans: usize,
     /// Number of its edges.
     pub edges: usize,
-    /// Number of edges of each boundary loop, longest first; where not every edge has one or two faces, of each chain of
-    /// boundary edges.
+    /// Number of edges of each boundary loop, longest first; if some edge has more than two faces,
+    /// of each chain of boundary edges.
     pub boundary_loops: Vec<usize>,
     /// Whether its faces can be oriented consistently.
     pub orientable: bool,
     /// Whether every edge has one or two faces.
     pub edge_manifold: bool,
-    /// Whether moreover every vertex has one fan of faces.
+    /// Whether the component is edge-manifold and every vertex has one fan of faces.
     pub manifold: bool,
 }
 
 impl Component {
-    /// χ = vertices − edges + faces.
+    /// The Euler characteristic χ = vertices − edges + faces.
     pub fn euler(&self) -> i64 {
         self.vertices as i64 - self.edges as i64 + self.faces as i64
     }
 
-    /// Genus from `χ = 2 − 2g − b` (orientable; `b` boundary loops) or `χ = 2 − g − b` (not orientable), with the surface
-    /// pulled apart at vertices where it touches itself. `None` where an edge has more than two faces.
+    /// The genus g from `χ = 2 − 2g − b` (orientable; `b` boundary loops) or `χ = 2 − g − b` (not
+    /// orientable).
+    ///
+    /// The surface is pulled apart at vertices where it touches itself. `None` if an edge has more
+    /// than two faces.
     pub fn genus(&self) -> Option<u64> {
         let euler = self.fans as i64 - self.edges as i64 + self.faces as i64;
         let handles = 2 - self.boundary_loops.len() as i64 - euler;
@@ -51,27 +56,28 @@ impl Component {
         (self.edge_manifold && genus >= 0).then_some(genus as u64)
     }
 
-    /// Whether it is a topological disc.
+    /// Whether the component is a topological disc.
     pub fn is_disc(&self) -> bool {
         self.manifold && self.orientable && self.boundary_loops.len() == 1 && self.euler() == 1
     }
 }
 
-/// All that the indices of a polygon mesh say about its shape.
+/// The topology of a polygon mesh.
 #[derive(Clone, Debug)]
 pub struct Topology {
     /// The undirected edges.
     pub edges: Edges,
-    /// Components of the faces and the flips that orient them.
+    /// The components and the flips that orient the faces consistently.
     pub orientation: Orientation,
     /// One entry per component.
     pub components: Vec<Component>,
-    /// Number of fans of faces around each vertex: 0 unreferenced, 1 manifold, more: the surface touches itself there.
+    /// Number of fans of faces around each vertex: 0 if unreferenced, 1 if manifold, more if the
+    /// surface touches itself there.
     pub fans: Vec<u32>,
 }
 
 impl Topology {
-    /// Analyses `surface`; linear in its size.
+    /// Analyses `surface` in linear time.
     pub fn new(surface: &Surface) -> Self {
         let faces = &surface.faces;
         let edges = Edges::new(faces, surface.positions.len());
@@ -83,8 +89,9 @@ impl Topology {
     }
 }
 
-/// For each corner a representative corner of its fan: the corners at one vertex that are connected through edges of
-/// exactly two faces.
+/// Returns a representative corner of the fan of each corner.
+///
+/// A fan is a set of corners at one vertex that are connected across edges of exactly two faces.
 fn fan_of_corner(faces: &Faces, edges: &Edges) -> Vec<u32> {
     let vertex = faces.corners();
     let mut fan = UnionFind::new(vertex.len());
@@ -159,8 +166,10 @@ fn components(faces: &Faces, edges: &Edges, orientation: &Orientation, fan: &[u3
     components
 }
 
-/// (component, number of edges) of every boundary loop. Boundary edges are joined where they end in the same fan, which
-/// needs no orientation and keeps loops apart that merely touch at a vertex.
+/// Returns the component and the number of edges of every boundary loop.
+///
+/// Boundary edges are joined if they end in the same fan. This needs no orientation and separates
+/// loops that merely touch at a vertex.
 fn boundary_loops(faces: &Faces, edges: &Edges, orientation: &Orientation, fan: &[u32]) -> Vec<(u32, usize)> {
     let boundary: Vec<usize> = (0..edges.len()).filter(|&e| edges.corners(e).len() == 1).collect();
     let mut loops = UnionFind::new(boundary.len());

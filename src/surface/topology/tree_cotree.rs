@@ -1,4 +1,5 @@
-//! A tree of shortest paths over the vertices, a maximum spanning tree over the faces, and the 2g edges that neither has.
+//! A tree of shortest paths on the vertices, a maximum spanning tree on the faces (the cotree), and
+//! the 2g edges that belong to neither.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -6,20 +7,21 @@ use std::collections::BinaryHeap;
 use crate::surface::edges::Edges;
 use crate::surface::{Faces, UnionFind};
 
-/// The vertices and inner edges of a connected, edge-manifold surface as a graph; every boundary loop is one node.
+/// The graph of the vertices and inner edges of a connected, edge-manifold surface, in which every
+/// boundary loop is contracted to one node.
 ///
-/// With each loop contracted, the surface is as good as closed: nodes − inner edges + faces = 2 − 2g.
+/// After the contraction the surface is closed: nodes − inner edges + faces = 2 − 2g.
 #[derive(Clone, Debug)]
 pub struct EdgeGraph<'a> {
     /// The faces.
     pub faces: &'a Faces,
-    /// Their edges; all indices of edges below are these.
+    /// The edges of `faces`, to which all edge indices below refer.
     pub edges: &'a Edges,
-    /// The node of each vertex: vertices share one where they are on the same boundary loop.
+    /// The node of each vertex; the vertices of a boundary loop share one node.
     pub node: Vec<u32>,
     /// Number of nodes.
     pub nodes: usize,
-    /// Nodes that are boundary loops.
+    /// The nodes that are boundary loops.
     pub loops: Vec<u32>,
     /// The length of each edge.
     pub length: Vec<f64>,
@@ -29,7 +31,8 @@ pub struct EdgeGraph<'a> {
 }
 
 impl<'a> EdgeGraph<'a> {
-    /// The graph of a surface of `vertices` vertices with one fan of faces each, edge `e` being `length[e]` ≥ 0 long.
+    /// Builds the graph of a surface with `vertices` vertices, each with one fan of faces; edge `e`
+    /// has length `length[e]` ≥ 0.
     pub fn new(faces: &'a Faces, edges: &'a Edges, vertices: usize, length: Vec<f64>) -> Self {
         let mut joined = UnionFind::new(vertices);
         let mut on_boundary = Vec::new();
@@ -81,12 +84,12 @@ impl<'a> EdgeGraph<'a> {
         if a == n { b } else { a }
     }
 
-    /// The inner edges at node `n`; one from the node to itself is there twice.
+    /// The inner edges at node `n`; an edge from the node to itself occurs twice.
     pub fn edges_at(&self, n: u32) -> &[u32] {
         &self.incident[self.around(n)]
     }
 
-    /// The nodes across these edges.
+    /// The nodes across the edges of [`Self::edges_at`], in the same order.
     pub fn neighbours(&self, n: u32) -> &[u32] {
         &self.neighbour[self.around(n)]
     }
@@ -95,7 +98,7 @@ impl<'a> EdgeGraph<'a> {
         self.offsets[n as usize] as usize..self.offsets[n as usize + 1] as usize
     }
 
-    /// Whether edge `e` has a face on either side.
+    /// Whether edge `e` has a face on both sides.
     pub fn is_inner(&self, e: u32) -> bool {
         self.edges.corners(e as usize).len() == 2
     }
@@ -107,24 +110,24 @@ impl<'a> EdgeGraph<'a> {
     }
 }
 
-/// Shortest paths from some nodes to all others (Dijkstra).
+/// Shortest paths from a set of source nodes to all others (Dijkstra).
 #[derive(Clone, Debug)]
 pub struct ShortestPaths {
-    /// The distance of each node from the nearest source; infinite where none is connected to it.
+    /// The distance of each node from the nearest source; infinite if no source is connected to it.
     pub distance: Vec<f64>,
-    /// The last edge of the shortest path to each node, or [`ShortestPaths::NONE`] at sources.
+    /// The last edge of the shortest path to each node; [`ShortestPaths::NONE`] at sources.
     pub parent: Vec<u32>,
 }
 
 impl ShortestPaths {
-    /// Stands for no edge.
+    /// Marks the absence of an edge.
     pub const NONE: u32 = u32::MAX;
 
-    /// Shortest paths from any of `sources`, nodes of `graph`.
+    /// Computes the shortest paths from the nearest of `sources`, which are nodes of `graph`.
     pub fn new(graph: &EdgeGraph, sources: impl IntoIterator<Item = u32>) -> Self {
         let mut distance = vec![f64::INFINITY; graph.nodes];
         let mut parent = vec![Self::NONE; graph.nodes];
-        // The bits of doubles that are not negative are in the order of their values.
+        // The bits of non-negative doubles have the same order as their values.
         let mut queue: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
         for n in sources {
             distance[n as usize] = 0.0;
@@ -147,7 +150,7 @@ impl ShortestPaths {
         ShortestPaths { distance, parent }
     }
 
-    /// The edges of the shortest path to node `n`, from there back to its source.
+    /// Iterates over the edges of the shortest path from node `n` back to its source.
     pub fn path<'a>(&'a self, graph: &'a EdgeGraph, mut n: u32) -> impl Iterator<Item = u32> + 'a {
         std::iter::from_fn(move || {
             let e = self.parent[n as usize];
@@ -160,27 +163,29 @@ impl ShortestPaths {
     }
 }
 
-/// The greedy system of loops of a surface of genus g (Erickson, Whittlesey, *Greedy optimal homotopy and homology
-/// generators*, SODA 2005).
+/// The greedy system of loops of a surface of genus g (Erickson, Whittlesey, *Greedy optimal
+/// homotopy and homology generators*, SODA 2005).
 ///
-/// The tree is that of shortest paths from a root. The cotree spans the faces across edges uv that the tree has not, with
-/// greatest sum of d(u) + |uv| + d(v), the length of the shortest loop from the root through uv. Each of the 2g edges left
-/// over closes one loop with the tree; together these are the shortest loops from the root that cut the surface to a disc,
-/// boundary loops counting as points.
+/// The tree consists of the shortest paths from a root. The cotree is a spanning tree of the faces;
+/// it crosses edges uv that are not in the tree, of greatest total d(u) + |uv| + d(v), the length
+/// of the shortest loop from the root through uv. Each of the 2g remaining edges closes one loop
+/// with the tree. Together these are the shortest loops from the root that cut the surface to a
+/// disc, where boundary loops count as points.
 #[derive(Clone, Debug)]
 pub struct TreeCotree {
-    /// The node all paths start from.
+    /// The node from which all paths start.
     pub root: u32,
-    /// The tree: distances of the nodes, and the edge toward the root from each.
+    /// The tree: the distance of each node, and the edge from it toward the root.
     pub tree: ShortestPaths,
-    /// The cotree: the edge to cross from each face toward face 0; [`ShortestPaths::NONE`] there.
+    /// The cotree: the edge to cross from each face toward face 0; [`ShortestPaths::NONE`] at face
+    /// 0.
     pub face_parent: Vec<u32>,
-    /// The 2g edges of neither tree, that of the shortest loop first.
+    /// The 2g edges that belong to neither tree, in the order of the lengths of their loops.
     pub left_over: Vec<u32>,
 }
 
 impl TreeCotree {
-    /// The system of loops from the node `root`.
+    /// Computes the system of loops from the node `root`.
     pub fn new(graph: &EdgeGraph, root: u32) -> Self {
         let tree = ShortestPaths::new(graph, [root]);
         let mut in_tree = vec![false; graph.edges.len()];
@@ -213,8 +218,8 @@ impl TreeCotree {
         TreeCotree { root, tree, face_parent: toward_first_face(graph, &in_cotree), left_over }
     }
 
-    /// The `k`-th loop as a closed walk of edges from the root: a path of the tree, an edge left over, a path back. The
-    /// two paths may begin with the same edges.
+    /// The `k`-th loop as a closed walk of edges from the root: a path of the tree, a remaining
+    /// edge, and a path back. The two paths can begin with the same edges.
     pub fn loop_edges(&self, graph: &EdgeGraph, k: usize) -> Vec<u32> {
         let e = self.left_over[k];
         let [a, b] = graph.ends(e);
@@ -225,24 +230,26 @@ impl TreeCotree {
         walk
     }
 
-    /// The closed walk through faces that crosses the `k`-th edge left over and otherwise edges of the cotree alone, as
-    /// the corners whose edges it crosses, each a corner of the face that it leaves. No edge is crossed twice.
+    /// The closed walk through faces that crosses the `k`-th remaining edge and otherwise only
+    /// edges of the cotree. It is given by the corners whose edges it crosses, each a corner of the
+    /// face that it leaves. No edge is crossed twice.
     ///
-    /// The integers `ω(c) = 1` on these corners, −1 on their opposite ones and 0 elsewhere sum to zero around every face:
-    /// where neighbouring faces run through their common edge in opposite directions, ω is a closed 1-form, 1 or −1 along
-    /// the `k`-th loop and 0 along all the others.
+    /// The integers `ω(c) = 1` on these corners, −1 on their opposite corners and 0 elsewhere sum
+    /// to zero around every face. On a consistently oriented surface ω is a closed 1-form whose
+    /// integral is ±1 along the `k`-th loop and 0 along all other loops.
     pub fn dual_loop(&self, graph: &EdgeGraph, k: usize) -> Vec<u32> {
         let edges = graph.edges;
         let &[c, d] = edges.corners(self.left_over[k] as usize) else { return Vec::new() };
         let [mut from, mut back] = [c, d].map(|c| self.toward_root(graph, edges.face_of_corner[c as usize]));
-        // What both share of their ways to the root of the cotree is not needed.
+        // The common part of the two paths to the root of the cotree cancels.
         while let (Some(&a), Some(&b)) = (from.last(), back.last())
             && a == b
         {
             from.pop();
             back.pop();
         }
-        // Out of c's face across the edge left over, to the common face, and back to c's face.
+        // The walk leaves c's face across the remaining edge, reaches the common face, and returns
+        // to c's face.
         let opposite = |c: &u32| edges.opposite(*c as usize).map(|o| o as u32);
         let mut walk = vec![c];
         walk.extend(back);
@@ -250,7 +257,8 @@ impl TreeCotree {
         walk
     }
 
-    /// The corners whose edges lie between face `f` and the root of the cotree, each of the face that is left.
+    /// The corners whose edges are crossed from face `f` to the root of the cotree, each a corner
+    /// of the face that is left.
     fn toward_root(&self, graph: &EdgeGraph, mut f: u32) -> Vec<u32> {
         let mut way = Vec::new();
         while self.face_parent[f as usize] != ShortestPaths::NONE {
@@ -264,7 +272,7 @@ impl TreeCotree {
     }
 }
 
-/// For each face the edge of the cotree toward face 0.
+/// Returns for each face the edge of the cotree toward face 0.
 fn toward_first_face(graph: &EdgeGraph, in_cotree: &[bool]) -> Vec<u32> {
     let edges = graph.edges;
     let mut parent = vec![ShortestPaths::NONE; graph.faces.len()];

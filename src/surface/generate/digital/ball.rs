@@ -1,11 +1,13 @@
 use super::{Frame, closed};
 use crate::geometry::vector::{norm, scale};
 use crate::surface::digital::Implicit;
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// √(x² + y² + z²) ≤ R. Rays from the centre cross the boundary once: an inner voxel at v with an outer one at v + n has
-/// n · (v + n/2) = (|v + n|² − |v|²)/2 > 0.
-pub(in super::super) const BALL: Row = Row {
+/// The ball √(x² + y² + z²) ≤ R.
+///
+/// Rays from the centre cross the boundary of its digitisation once: an inner voxel at v with an
+/// outer neighbour at v + n satisfies n · (v + n/2) = (|v + n|² − |v|²)/2 > 0.
+pub(in super::super) const BALL: SurfaceKind = SurfaceKind {
     name: "digital-ball",
     about: "surfels of the lattice points in a ball, √(x² + y² + z²) ≤ R: a closed sphere",
     parameters: &[&[Parameter::real("R", 16.0, 1.0, 500.0, "radius, in voxels")], super::POSITION],

@@ -2,20 +2,21 @@ use super::Frame;
 use super::ball::Ball;
 use crate::geometry::vector::norm;
 use crate::surface::digital::{Adjacency, Solid, Surfel, digitise, exact_normals, part};
-use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, Row};
+use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, SurfaceKind};
 
-/// The part of a digitised ball's boundary above a plane between two layers of voxels: an open disc, as each ray from the
-/// centre crosses the boundary once. The flat bottom is no part of it.
+/// The part of a digitised ball's boundary above a plane between two layers of voxels.
 ///
-/// Exact coordinates: the radial projection of a pointel onto the sphere, projected from the south pole and scaled,
+/// It is an open disc, because each ray from the centre crosses the boundary once. The flat bottom
+/// does not belong to it. The exact coordinates are the stereographic projection from the south
+/// pole of the radial projection of a pointel onto the sphere, scaled:
 ///
 /// ```text
 /// w = (x + iy)/(|p| + z) / tan(Θ/2),    p = (x, y, z) from the centre
 /// ```
 ///
-/// where Θ is the polar angle of the circle in which the plane cuts the sphere. This circle is |w| = 1; pointels of the boundary
-/// are on it but for O(1/R). Seen from outside, w keeps the orientation.
-pub(in super::super) const CAP: Row = Row {
+/// Here Θ is the polar angle of the circle in which the plane cuts the sphere. This circle is |w| =
+/// 1, and boundary pointels lie on it up to O(1/R). Seen from outside, w preserves orientation.
+pub(in super::super) const CAP: SurfaceKind = SurfaceKind {
     name: "digital-cap",
     about: "surfels of the lattice points in a ball above a lattice plane: a disc; exact map: stereographic, rim at |w| = 1 + O(1/R)",
     parameters: &[
@@ -39,11 +40,11 @@ fn cap(arguments: &Arguments) -> Result<Generated, GenerateError> {
     let ball = Ball { frame: Frame::new(arguments, false)?, radius: arguments.real("R")? };
     let solid = digitise(&ball, ball.frame.bounds([ball.radius; 3]))?;
     let wanted = ball.frame.centre[2] + ball.radius * arguments.real("angle")?.to_radians().cos();
-    // planes are at half-integers; one layer of voxels at least
+    // Planes are at half-integers; at least one layer of voxels lies above.
     let plane = (wanted.floor() + 0.5).min(top(&solid) - 0.5);
     let lowest = (plane - solid.origin()[2]).ceil() as i32;
     let above = |surfel: &Surfel| {
-        // a surfel that looks down from the lowest layer lies in the plane
+        // A surfel of the lowest layer that faces down lies in the plane.
         surfel.voxel[2] > lowest || (surfel.voxel[2] == lowest && (surfel.axis != 2 || surfel.positive))
     };
     let (surface, mut digital) = part(solid, Adjacency::default(), 0, above)?;
@@ -60,7 +61,7 @@ fn cap(arguments: &Arguments) -> Result<Generated, GenerateError> {
     Ok(Generated { surface, exact: Some(exact), period: None, digital: Some(digital), name: String::new() })
 }
 
-/// Height of the highest voxels.
+/// The z coordinate of the highest layer of voxels.
 fn top(solid: &Solid) -> f64 {
     let [_, height, depth] = solid.size();
     let full = |&k: &usize| (0..height).any(|j| solid.row(j, k).iter().any(|&word| word != 0));

@@ -1,9 +1,9 @@
 use super::{Frame, closed};
 use crate::surface::digital::Implicit;
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// max(|x| − a, |y| − b, |z| − c) ≤ 0.
-pub(in super::super) const BOX: Row = Row {
+/// The box max(|x| − a, |y| − b, |z| − c) ≤ 0.
+pub(in super::super) const BOX: SurfaceKind = SurfaceKind {
     name: "digital-box",
     about: "surfels of the lattice points in a box, |x| ≤ a, |y| ≤ b, |z| ≤ c: a closed sphere",
     parameters: &[
@@ -29,7 +29,8 @@ struct Cuboid {
 }
 
 impl Cuboid {
-    /// The face of largest |x| − a, as its axis and sign.
+    /// Returns the face of the box on which |x| − a (|y| − b, |z| − c) is largest, as its axis and
+    /// sign.
     fn outermost(&self, p: [f64; 3]) -> (usize, f64) {
         let over = |k: usize| p[k].abs() - self.half[k];
         let axis = (1..3).fold(0, |best, k| if over(k) > over(best) { k } else { best });
@@ -58,8 +59,8 @@ impl Implicit for Cuboid {
         1.0
     }
 
-    /// That of the face through which the way from the inner to the outer voxel leaves the box: near an edge of the box the
-    /// closest point may lie on the other face.
+    /// Returns the normal of the face through which the segment from the inner to the outer voxel
+    /// leaves the box: near an edge of the box the closest point can lie on a different face.
     fn normal(&self, inner: [f64; 3], outer: [f64; 3]) -> [f64; 3] {
         let [p, q] = [inner, outer].map(|p| self.frame.inward(p));
         let mut first = (f64::INFINITY, self.outermost(q));

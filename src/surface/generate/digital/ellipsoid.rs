@@ -1,10 +1,10 @@
 use super::{Frame, closed};
 use crate::geometry::vector::norm;
 use crate::surface::digital::Implicit;
-use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, Row};
+use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, SurfaceKind};
 
-/// √((x/a)² + (y/b)² + (z/c)²) ≤ 1.
-pub(in super::super) const ELLIPSOID: Row = Row {
+/// The ellipsoid √((x/a)² + (y/b)² + (z/c)²) ≤ 1.
+pub(in super::super) const ELLIPSOID: SurfaceKind = SurfaceKind {
     name: "digital-ellipsoid",
     about: "surfels of the lattice points in an ellipsoid, (x/a)² + (y/b)² + (z/c)² ≤ 1: a closed sphere",
     parameters: &[
@@ -20,8 +20,9 @@ pub(in super::super) const ELLIPSOID: Row = Row {
     exact: false,
 };
 
-/// Smallest radius of curvature in voxels. Half a voxel is the farthest that the surface is from a surfel's centre, so the
-/// closest point is unique, and the iteration toward it gains a factor of 2 or more a step.
+/// Smallest radius of curvature, in voxels. The surface is at most half a voxel from the centre of
+/// a surfel, so the closest point is unique and each iteration of its search at least halves the
+/// error.
 const SHARPEST: f64 = 1.5;
 
 struct Ellipsoid {

@@ -1,15 +1,16 @@
 use super::{Arguments, GenerateError};
 use crate::geometry::vector::{dot, sub};
 
-/// From the lattice to the shape's own coordinates and back: a rotation about (2, 1, 0)/√5, and a translation.
+/// The rigid motion between lattice coordinates and the shape's own: a rotation about (2, 1, 0)/√5
+/// and a translation.
 pub(super) struct Frame {
     pub centre: [f64; 3],
-    /// Images of the shape's axes.
+    /// The shape's axes in lattice coordinates.
     axes: [[f64; 3]; 3],
 }
 
 impl Frame {
-    /// Parameters [`POSITION`](super::POSITION) and, where `tilted`, [`TILT`](super::TILT).
+    /// Reads the parameters [`POSITION`](super::POSITION) and, if `tilted`, [`TILT`](super::TILT).
     pub(super) fn new(arguments: &Arguments, tilted: bool) -> Result<Self, GenerateError> {
         let centre = [arguments.real("x")?, arguments.real("y")?, arguments.real("z")?];
         let tilt = if tilted { arguments.real("tilt")? } else { 0.0 };
@@ -30,18 +31,19 @@ impl Frame {
         Ok(Frame { centre, axes })
     }
 
-    /// A point in the shape's coordinates.
+    /// Transforms a point to the shape's coordinates.
     pub(super) fn inward(&self, p: [f64; 3]) -> [f64; 3] {
         let p = sub(p, self.centre);
         self.axes.map(|axis| dot(axis, p))
     }
 
-    /// A vector in those of the lattice.
+    /// Transforms a vector to lattice coordinates.
     pub(super) fn outward(&self, v: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|k| (0..3).map(|axis| v[axis] * self.axes[axis][k]).sum())
     }
 
-    /// A box with room for a shape within ± `reach` in its own coordinates, and a layer of voxels around it.
+    /// Returns a box that contains a shape within ± `reach` in its own coordinates and a layer of
+    /// voxels around it.
     pub(super) fn bounds(&self, reach: [f64; 3]) -> [[f64; 3]; 2] {
         let extent = [0, 1, 2].map(|k| (0..3).map(|axis| reach[axis] * self.axes[axis][k].abs()).sum::<f64>() + 1.0);
         [

@@ -1,9 +1,9 @@
 use super::{Frame, closed};
 use crate::surface::digital::Implicit;
-use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, Row};
+use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, SurfaceKind};
 
-/// √((√(x² + y²) − R)² + z²) ≤ r: τ = i r/√(R² − r²).
-pub(in super::super) const TORUS: Row = Row {
+/// The torus √((√(x² + y²) − R)² + z²) ≤ r, with τ = i r/√(R² − r²).
+pub(in super::super) const TORUS: SurfaceKind = SurfaceKind {
     name: "digital-torus",
     about: "surfels of the lattice points in a torus, √((√(x² + y²) − R)² + z²) ≤ r; τ = i r/√(R² − r²)",
     parameters: &[

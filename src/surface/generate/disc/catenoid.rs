@@ -1,17 +1,17 @@
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// The isometric family from the catenoid to the helicoid: cos α · C + sin α · H with
-/// C = (cos v cosh u, sin v cosh u, u), H = (sin v sinh u, −cos v sinh u, v).
-pub(in super::super) const CATENOID: Row = Row {
+/// The isometric family from the catenoid to the helicoid: cos α · C + sin α · H with C = (cos v
+/// cosh u, sin v cosh u, u), H = (sin v sinh u, −cos v sinh u, v).
+pub(in super::super) const CATENOID: SurfaceKind = SurfaceKind {
     name: "catenoid",
     about: "patch of the catenoid (angle 0), helicoid (angle 90) and the minimal surfaces between, u + iv = scale · w",
     parameters: &[
-        Row::CELLS,
+        SurfaceKind::CELLS,
         &[
             Parameter::real("scale", 1.0, 0.01, 3.0, "half the angle that the patch goes around the axis, radians"),
             Parameter::real("angle", 0.0, 0.0, 90.0, "of the family, degrees"),
         ],
-        Row::MESH,
+        SurfaceKind::MESH,
     ],
     form: Form::Disc(|arguments| {
         let scale = arguments.real("scale")?;

@@ -1,18 +1,19 @@
 use super::plane::polynomial;
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// The plane image w + c w², rolled on a cylinder: isometric to it, so A = L = H = 0 can be reached.
-pub(in super::super) const CYLINDER: Row = Row {
+/// The plane image w + c w² rolled onto a cylinder. It is isometric to the plane image, so the
+/// minima A = L = H = 0 are attained.
+pub(in super::super) const CYLINDER: SurfaceKind = SurfaceKind {
     name: "cylinder",
     about: "x + iy = w + c w² rolled up: (ρ sin(x/ρ), y, ρ (1 − cos(x/ρ))); developable",
     parameters: &[
-        Row::CELLS,
+        SurfaceKind::CELLS,
         &[
             Parameter::real("c", 0.25, -0.49, 0.49, "coefficient of w²"),
-            // the image is at most 2.3 wide: with ρ ≥ 1/2 the roll does not meet itself
+            // The image is at most 2.3 wide: with ρ ≥ 1/2 it does not wrap around to itself.
             Parameter::real("radius", 0.75, 0.5, 1e3, "radius ρ of the cylinder"),
         ],
-        Row::MESH,
+        SurfaceKind::MESH,
     ],
     form: Form::Disc(|arguments| {
         let (c, radius) = (arguments.real("c")?, arguments.real("radius")?);

@@ -1,13 +1,13 @@
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// Enneper's minimal surface, y mirrored so that the normal at w = 0 is +z.
-pub(in super::super) const ENNEPER: Row = Row {
+/// Enneper's minimal surface, with y mirrored so that the normal at w = 0 is +z.
+pub(in super::super) const ENNEPER: SurfaceKind = SurfaceKind {
     name: "enneper",
     about: "(u − u³/3 + uv², v − v³/3 + vu², u² − v²), u + iv = scale · w",
     parameters: &[
-        Row::CELLS,
+        SurfaceKind::CELLS,
         &[Parameter::real("scale", 0.5, 0.01, 1.7, "|u + iv| on the boundary; above √3 it meets itself")],
-        Row::MESH,
+        SurfaceKind::MESH,
     ],
     form: Form::Disc(|arguments| {
         let scale = arguments.real("scale")?;

@@ -1,5 +1,5 @@
-//! Conformal immersions of the unit disc, |X_u| = |X_v|, X_u · X_v = 0 in w = u + iv: their exact disc coordinates
-//! are w itself.
+//! Conformal immersions of the unit disc: |X_u| = |X_v| and X_u · X_v = 0 in w = u + iv. Their
+//! exact disc coordinates are w itself.
 
 pub(super) mod catenoid;
 pub(super) mod cylinder;

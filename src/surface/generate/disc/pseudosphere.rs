@@ -1,16 +1,17 @@
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// Curvature −1: the half plane's metric (dx² + dy²)/y², y > 1, as a surface of revolution.
-pub(in super::super) const PSEUDOSPHERE: Row = Row {
+/// The pseudosphere, curvature −1: the metric (dx² + dy²)/y² of the half plane y > 1 as a surface
+/// of revolution.
+pub(in super::super) const PSEUDOSPHERE: SurfaceKind = SurfaceKind {
     name: "pseudosphere",
     about: "(cos x / y, sin x / y, arcosh y − √(y² − 1)/y), x + iy = height · i + scale · w; curvature −1",
     parameters: &[
-        Row::CELLS,
+        SurfaceKind::CELLS,
         &[
             Parameter::real("scale", 1.0, 0.01, 3.0, "half the angle that the patch goes around the axis, radians"),
             Parameter::real("height", 2.2, 1.1, 10.0, "of the patch's middle; at least scale + 1.05"),
         ],
-        Row::MESH,
+        SurfaceKind::MESH,
     ],
     form: Form::Disc(|arguments| {
         let (scale, height) = (arguments.real("scale")?, arguments.real("height")?);

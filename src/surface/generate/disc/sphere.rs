@@ -1,13 +1,13 @@
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// Stereographic projection from the north pole, seen from inside.
-pub(in super::super) const SPHERE: Row = Row {
+/// Part of the unit sphere by stereographic projection from the north pole, seen from inside.
+pub(in super::super) const SPHERE: SurfaceKind = SurfaceKind {
     name: "sphere",
     about: "part of the unit sphere, (2W, |W|² − 1)/(1 + |W|²), W = scale · w; scale 1: a half",
     parameters: &[
-        Row::CELLS,
+        SurfaceKind::CELLS,
         &[Parameter::real("scale", 1.0, 0.01, 10.0, "radius of the disc before the projection")],
-        Row::MESH,
+        SurfaceKind::MESH,
     ],
     form: Form::Disc(|arguments| {
         let scale = arguments.real("scale")?;

@@ -1,6 +1,6 @@
 use crate::surface::generate::{Form, Immersion, SURFACES, name};
 
-/// Names with other parameters than the defaults, beside every row's defaults.
+/// Names with parameters other than the defaults, tested beside the defaults of every row.
 const MORE: &[&str] = &[
     "plane?c=-0.49",
     "plane?c=0",
@@ -36,8 +36,8 @@ fn sample() -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// ∂X along `direction` by central differences of order 8: with step 0.008 both the truncation and the rounding
-/// are about 1e-13 of the largest values that occur.
+/// ∂X along `direction` by central differences of order 8. With step 0.008 truncation and rounding
+/// are both about 1e-13 of the largest values that occur.
 fn derivative(x: &Immersion, [u, v]: [f64; 2], direction: [f64; 2]) -> [f64; 3] {
     let step = 0.008;
     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -95,7 +95,7 @@ fn surfaces_lie_on_their_quadric_or_solve_their_equation() {
         assert!((x * z.cos() + y * z.sin()).abs() < 1e-14, "the axis and a ruling at height z: x : y = sin z : −cos z");
         let [x, y, z] = tube(w);
         assert!(((x.hypot(y) - 3.0).hypot(z) - 0.7).abs() < 1e-14);
-        // design: u − u³/3 + uv², −(−v + v³/3 − vu²), u² − v² at u + iv = w/2
+        // Enneper's formula u − u³/3 + uv², −(−v + v³/3 − vu²), u² − v² at u + iv = w/2.
         let [u, v] = w.map(|x| x / 2.0);
         let expected = [u - u.powi(3) / 3.0 + u * v * v, v - v.powi(3) / 3.0 + v * u * u, u * u - v * v];
         assert!((0..3).all(|i| (enneper(w)[i] - expected[i]).abs() < 1e-15));

@@ -1,15 +1,16 @@
 use std::f64::consts::FRAC_PI_2;
 
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// A finger: seen from its rim, the cap is conformally as small as e^{−length}, so that long ones end what doubles can tell apart.
-pub(in super::super) const CAPSULE: Row = Row {
+/// A capsule: a tube of radius 1 closed by a hemisphere. Its conformal map shrinks the cap to a
+/// size of order e^{−length}, so that long tubes exceed the resolution of double precision.
+pub(in super::super) const CAPSULE: SurfaceKind = SurfaceKind {
     name: "capsule",
     about: "a tube of radius 1 closed by half a sphere, open at its other end; its conformal map shrinks the cap as e^−length",
     parameters: &[
-        Row::VERTICES,
+        SurfaceKind::VERTICES,
         &[Parameter::real("length", 4.0, 0.0, 100.0, "length of the tube, in its radii")],
-        Row::MESH,
+        SurfaceKind::MESH,
     ],
     form: Form::Square(|arguments| {
         let length = arguments.real("length")?;

@@ -2,10 +2,10 @@ use crate::surface::generate::random::Random;
 use crate::surface::generate::{Arguments, GenerateError, Generated, Parameter, grid, mesh};
 use crate::surface::{Faces, Surface};
 
-/// More squares than these are taken for a mistake.
+/// Upper bound on the number of squares, to bound memory.
 const MOST_SQUARES: u64 = 4_000_000;
 
-/// Parameters of flat regions of squares.
+/// Parameters of flat regions made of squares.
 pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter::whole("n", 2, 1, 1000, "squares along a unit"),
     Parameter::choice("mesh", &["quad", "triangle"], "squares, split squares"),
@@ -13,10 +13,11 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     mesh::SEED,
 ];
 
-/// The flat region of these unit squares (lower left corners, none twice), each made of `n × n` squares of side 1/n.
+/// Returns the flat region made of unit squares, given by their distinct lower left corners; each
+/// is divided into `n × n` squares of side 1/n.
 ///
 /// # Errors
-/// More squares than memory should be asked for.
+/// More squares than [`MOST_SQUARES`].
 pub(super) fn region(arguments: &Arguments, units: &[[i32; 2]]) -> Result<Generated, GenerateError> {
     let n = arguments.whole("n")?;
     if units.len() as u64 * n * n > MOST_SQUARES {
@@ -32,7 +33,7 @@ pub(super) fn region(arguments: &Arguments, units: &[[i32; 2]]) -> Result<Genera
     for &[x, y] in units {
         squares.extend((0..n).flat_map(|j| (0..n).map(move |i| [n * x + i, n * y + j])));
     }
-    // Row by row, so that neighbours are near each other also in memory.
+    // SurfaceKind by row, so that neighbours are also close in memory.
     squares.sort_unstable_by_key(|&[x, y]| (y, x));
     let corners = |[x, y]: [i32; 2]| [(y, x), (y, x + 1), (y + 1, x + 1), (y + 1, x)];
     let mut vertices: Vec<(i32, i32)> = squares.iter().flat_map(|&square| corners(square)).collect();

@@ -1,8 +1,8 @@
 use super::cells::{PARAMETERS, region};
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// Long teeth on a narrow back: on the circle almost all of the comb crowds into a few points.
-pub(in super::super) const COMB: Row = Row {
+/// A comb with long teeth: almost all of its circle map is crowded into a few small regions.
+pub(in super::super) const COMB: SurfaceKind = SurfaceKind {
     name: "comb",
     about: "flat: teeth of width 1, 1 apart, on a back of width 1; n squares along a unit",
     parameters: &[
@@ -21,8 +21,8 @@ pub(in super::super) const COMB: Row = Row {
     exact: false,
 };
 
-/// A rolled-up strip.
-pub(in super::super) const SPIRAL: Row = Row {
+/// A strip rolled up to a spiral.
+pub(in super::super) const SPIRAL: SurfaceKind = SurfaceKind {
     name: "spiral",
     about: "flat: a strip of width 1 rolled up with square corners, 1 between its rounds; n squares along a unit",
     parameters: &[&[Parameter::whole("rounds", 3, 1, 100, "how many")], PARAMETERS],
@@ -42,8 +42,8 @@ pub(in super::super) const SPIRAL: Row = Row {
     exact: false,
 };
 
-/// A boundary of nothing but corners, as the pixels of a slanted edge have it.
-pub(in super::super) const STAIRCASE: Row = Row {
+/// A region whose boundary is a staircase, as in an image of a slanted edge.
+pub(in super::super) const STAIRCASE: SurfaceKind = SurfaceKind {
     name: "staircase",
     about: "flat: the unit squares with middles in |x| + |y| < size; n squares along a unit",
     parameters: &[&[Parameter::whole("size", 8, 1, 1000, "half the diagonal")], PARAMETERS],

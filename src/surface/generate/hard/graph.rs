@@ -1,20 +1,20 @@
 use crate::surface::generate::random::Random;
-use crate::surface::generate::{Form, Parameter, Row};
+use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
-/// The distance at which a spike has fallen to e^{−1/2} of its height.
+/// The distance from the centre at which a spike has decreased to e^{−1/2} of its height.
 const WIDTH: f64 = 0.05;
 
-/// Needles on a plain.
-pub(in super::super) const SPIKES: Row = Row {
+/// Narrow Gaussian spikes on a plane.
+pub(in super::super) const SPIKES: SurfaceKind = SurfaceKind {
     name: "spikes",
     about: "z = height Σ exp(−|p − c|²/0.005) over [−1, 1]², the centres c at random",
     parameters: &[
-        Row::VERTICES,
+        SurfaceKind::VERTICES,
         &[
             Parameter::real("height", 2.0, -100.0, 100.0, "of the spikes, which are 0.1 wide"),
             Parameter::whole("count", 12, 1, 1000, "of spikes"),
         ],
-        Row::MESH,
+        SurfaceKind::MESH,
     ],
     form: Form::Square(|arguments| {
         let (height, count) = (arguments.real("height")?, arguments.whole("count")?);
@@ -31,12 +31,12 @@ pub(in super::super) const SPIKES: Row = Row {
     exact: false,
 };
 
-/// Triangles of every quality.
-pub(in super::super) const ROUGH: Row = Row {
+/// A graph with random heights, whose triangles have every quality.
+pub(in super::super) const ROUGH: SurfaceKind = SurfaceKind {
     name: "rough",
     about: "z uniform in [−height, height] over [−1, 1]², another at every vertex: needles and obtuse triangles throughout",
     parameters: &[
-        Row::VERTICES,
+        SurfaceKind::VERTICES,
         &[Parameter::real(
             "height",
             0.5,
@@ -44,12 +44,13 @@ pub(in super::super) const ROUGH: Row = Row {
             1000.0,
             "half the range of z; the finer the mesh, the steeper its faces",
         )],
-        Row::MESH,
+        SurfaceKind::MESH,
     ],
     form: Form::Square(|arguments| {
         let (height, seed) = (arguments.real("height")?, arguments.whole("seed")?);
         Ok(Box::new(move |[s, t]| {
-            // A number of its own for every point, whatever the order in which they are asked for; −0 is 0.
+            // The height depends only on the point, whatever the order of evaluation; −0 counts as
+            // 0.
             let [s_bits, t_bits] = [s, t].map(|x| (x + 0.0).to_bits());
             let mut random = Random::new(seed ^ s_bits ^ t_bits.rotate_left(32));
             random.bits();

@@ -1,5 +1,7 @@
-//! Shapes that are hard to map: long protrusions, needles, staircases, triangles of every quality. Their conformal maps are not
-//! known, but every one of them is a disc, so a map without folds exists.
+//! Shapes that are hard to map: long protrusions, needles, staircases, triangles of every quality.
+//!
+//! Their conformal maps are not known exactly, but each shape is a disc, so a map without flipped
+//! faces exists.
 
 pub(super) mod capsule;
 mod cells;
