@@ -3,25 +3,27 @@ use super::page::Colours;
 use super::scale::Scale;
 use super::{style, text};
 
-/// Colour bar of a [`Scale`], standing right of a plot: an arrow head for values beyond it, tick marks, label, and a
-/// legend for flipped faces.
+/// The colour bar of a [`Scale`], to the right of a plot.
+///
+/// It has an arrow head for values beyond the scale, tick marks, a label, and a legend for flipped
+/// faces.
 pub(super) struct Bar {
     ticks: Vec<(f64, String)>,
-    /// What stands beside the arrow head.
+    /// The label of the arrow head.
     beyond: Option<String>,
     label: String,
     colours: Colours,
-    /// What stands beside the swatch for flipped faces.
+    /// The label of the swatch for flipped faces.
     flipped: Option<String>,
 }
 
-/// From the plot area to the bar.
+/// Distance from the plot area to the bar.
 const DISTANCE: f64 = 44.0;
-/// Height of the arrow head: its label clears that of the bar's upper end.
+/// Height of the arrow head, such that its label clears that of the bar's upper end.
 const HEAD: f64 = 46.0;
 /// Side of the legend's swatch.
 const SWATCH: f64 = style::BAR;
-/// Differently coloured strips: more than there are colours.
+/// Number of strips of different colour: more than there are colours.
 const STRIPS: usize = 400;
 
 impl Bar {
@@ -39,7 +41,7 @@ impl Bar {
         }
     }
 
-    /// From the plot area to the right end of all text.
+    /// The distance from the plot area to the right end of all text.
     pub(super) fn width(&self) -> f64 {
         let label = if self.label.is_empty() { 0.0 } else { 2.0 * style::GAP + style::TEXT };
         let legend = self.flipped.as_ref().map_or(0.0, |l| 1.5 * style::GAP + text::width(l, style::SMALL_TEXT));
@@ -77,7 +79,8 @@ impl Bar {
             top += HEAD;
         }
         let length = bottom - top;
-        // Each strip reaches down to the bottom and is covered by the next: no seams.
+        // Each strip extends down to the bottom and is covered by the next, so that there are no
+        // seams.
         for i in (0..STRIPS).rev() {
             let upper = (bottom - length * (i + 1) as f64 / STRIPS as f64).round();
             let t = (i as f64 + 0.5) / STRIPS as f64;

@@ -10,8 +10,10 @@ impl std::fmt::Display for Colour {
     }
 }
 
-/// Every 15th entry of Crameri's `lipari`, from its light end; the darkest two are left to values beyond the scale.
-/// F. Crameri, Scientific colour maps, doi:10.5281/zenodo.1243862, MIT licence.
+/// Every 15th entry of Crameri's `lipari`, from its light end; the darkest two are reserved for
+/// values beyond the scale.
+///
+/// Source: F. Crameri, Scientific colour maps, doi:10.5281/zenodo.1243862, MIT licence.
 const LIPARI: [[u8; 3]; 16] = [
     [253, 245, 218],
     [241, 221, 185],
@@ -31,14 +33,18 @@ const LIPARI: [[u8; 3]; 16] = [
     [21, 59, 94],
 ];
 
-/// Grey of t ∈ [0, 1] (clamped): pale at 0, medium at 1, so that [`super::MARK`] stands out from all of it.
+/// Returns the grey of t ∈ [0, 1] (clamped): pale at 0 and medium at 1, so that [`super::MARK`]
+/// contrasts with all of it.
 pub(super) fn grey(t: f64) -> Colour {
     let level = (246.0 - 96.0 * t.clamp(0.0, 1.0)).round() as u8;
     Colour([level; 3])
 }
 
-/// Colour of t ∈ [0, 1] (clamped): pale at 0, dark at 1, lightness falling steadily in between, so that it reads in grey
-/// and with any colour vision. Linear between the entries of the table, within 2/255 of the full map.
+/// Returns the colour of t ∈ [0, 1] (clamped), from pale at 0 to dark at 1.
+///
+/// Lightness decreases monotonically, so that the scale is readable in greyscale and with any
+/// colour vision. It interpolates linearly between the entries of the table, within 2/255 of the
+/// full map.
 pub fn error_colour(t: f64) -> Colour {
     let last = LIPARI.len() - 1;
     let s = t.clamp(0.0, 1.0) * last as f64;

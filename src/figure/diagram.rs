@@ -3,30 +3,31 @@ use super::drawing::{Anchor, Drawing, Shape};
 use super::raster::{blank_sheet, encode_png};
 use super::{FigureError, Format, style, text};
 
-/// A drawing that explains: panels of points, lines and labels in the plane, with a caption.
+/// An explanatory drawing: panels of points, lines and labels in the plane, with a caption.
 #[derive(Clone, Debug, Default)]
 pub struct Diagram {
-    /// Row after row.
+    /// The panels, row by row.
     pub panels: Vec<Panel>,
-    /// Panels in a row, as wide as a page in all; at least 1.
+    /// Number of panels in a row, at least 1; a row has the width of a page.
     pub columns: usize,
-    /// Below; broken where it has line breaks, and where it is too long.
+    /// Text below the panels; broken at line breaks and where it is too long.
     pub caption: String,
 }
 
-/// A part of a [`Diagram`], with coordinates of its own: x right, y upward, the same unit on both axes.
+/// A part of a [`Diagram`] with its own coordinates: x right, y upward, the same unit on both axes.
 #[derive(Clone, Debug, Default)]
 pub struct Panel {
-    /// Over it; one line.
+    /// Title above the panel, on one line.
     pub title: String,
-    /// Later ones lie over earlier ones.
+    /// The items; later ones cover earlier ones.
     pub items: Vec<Item>,
 }
 
-/// Something drawn. Places are in the panel's units, widths and sizes in units of paper (1/254 inch).
+/// An item of a diagram. Positions are in the panel's units, widths and sizes in units of paper
+/// (1/254 inch).
 #[derive(Clone, Debug)]
 pub enum Item {
-    /// A filled polygon, with or without an outline.
+    /// A filled polygon, with an optional outline.
     Area {
         /// Its corners.
         points: Vec<[f64; 2]>,
@@ -43,75 +44,75 @@ pub enum Item {
         colour: Colour,
         /// Its width.
         width: f64,
-        /// How it is drawn.
+        /// The line style.
         style: LineStyle,
     },
     /// A mark at a point.
     Dot {
         /// The point.
         at: [f64; 2],
-        /// Its form.
+        /// Shape of the mark.
         form: Form,
         /// Its colour; the outline is white.
         colour: Colour,
-        /// Half its height.
+        /// Half of its height.
         size: f64,
     },
     /// A text beside a point.
     Label {
         /// The point.
         at: [f64; 2],
-        /// From there to the middle of the text, in units of paper, y upward.
+        /// Offset from the point to the centre of the text, in units of paper, y upward.
         shift: [f64; 2],
-        /// What it says.
+        /// The text.
         text: String,
-        /// Whether it hides what lies behind it.
+        /// Whether the label has an opaque background.
         covering: bool,
     },
 }
 
-/// How a line is drawn.
+/// The style of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineStyle {
-    /// In one piece.
+    /// A solid line.
     Solid,
-    /// In short pieces.
+    /// A dashed line.
     Dashed,
-    /// With a head at its last point.
+    /// A solid line with an arrow head at its last point.
     Arrow,
 }
 
-/// The form of a mark: what tells it from others without colour.
+/// The shape of a mark, which distinguishes marks without colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// A disc.
     Disc,
     /// A square.
     Square,
-    /// A triangle, upright.
+    /// An upright triangle.
     Triangle,
 }
 
-/// The page.
+/// Width of the page.
 const WIDTH: f64 = 1600.0;
-/// Between panels, and around everything.
+/// Width of the space between panels and around them.
 const GUTTER: f64 = 44.0;
-/// Around what is drawn in a panel: room for labels at its edge.
+/// Space around the items of a panel, for labels at its edge.
 const PADDING: f64 = 40.0;
-/// The highest panel: of the only column, of several.
+/// Largest height of a panel: if there is one column, and if there are several.
 const TALLEST: [f64; 2] = [900.0, 660.0];
 /// Pixels per unit of paper.
 const ZOOM: usize = 2;
-/// Of dashed lines.
+/// Lengths of dashes and gaps.
 const DASH: [f64; 2] = [12.0, 9.0];
-/// Length and half width of an arrow's head, by the line's width, and the least length.
+/// Length and half width of an arrow head, relative to the line's width, and the smallest length.
 const HEAD: [f64; 3] = [5.0, 2.0, 16.0];
 
 impl Diagram {
-    /// The picture as the bytes of a file.
+    /// Renders the picture to the bytes of a file.
     ///
     /// # Errors
-    /// No panels, a panel without extent, places that are no numbers.
+    /// There are no panels, a panel has no extent, or positions are not finite.
     pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
         let (drawing, height) = self.lay_out()?;
         let [width, height] = [WIDTH as u32, height.ceil() as u32];
@@ -126,7 +127,7 @@ impl Diagram {
         }
     }
 
-    /// Everything on paper, and how high that is.
+    /// Lays out everything on paper; returns the drawing and its height.
     fn lay_out(&self) -> Result<(Drawing, f64), FigureError> {
         if self.panels.is_empty() {
             return Err(FigureError::NoPanels);
@@ -160,7 +161,7 @@ impl Diagram {
     }
 }
 
-/// The plane of a panel on paper.
+/// The transformation from a panel's plane to paper.
 struct Frame {
     middle: [f64; 2],
     scale: f64,
@@ -184,7 +185,7 @@ impl Frame {
         let extent = [high[0] - low[0], high[1] - low[1]];
         let room = size.map(|side| side - 2.0 * PADDING);
         let scale = (room[0] / extent[0]).min(room[1] / extent[1]);
-        // Of no items, and of one place.
+        // The panel has no items, or all of them are at one position.
         if !(scale.is_finite() && scale > 0.0) {
             return Err(FigureError::PanelExtent { title: panel.title.clone() });
         }
@@ -240,7 +241,7 @@ fn draw(item: &Item, place: impl Fn([f64; 2]) -> [f64; 2], drawing: &mut Drawing
     }
 }
 
-/// Draws a head at the last point, and takes the line back so that it ends inside of it.
+/// Draws a head at the last point and shortens the line so that it ends inside the head.
 fn arrow_head(points: &mut [[f64; 2]], colour: Colour, width: f64, drawing: &mut Drawing) {
     let [.., before, tip] = points else { return };
     let (dx, dy) = (tip[0] - before[0], tip[1] - before[1]);
@@ -257,7 +258,7 @@ fn arrow_head(points: &mut [[f64; 2]], colour: Colour, width: f64, drawing: &mut
     *tip = [tip[0] - 0.9 * length * ux, tip[1] - 0.9 * length * uy];
 }
 
-/// The pieces of a dashed line.
+/// Returns the dashes of a dashed line.
 fn dashes(points: &[[f64; 2]]) -> Vec<[[f64; 2]; 2]> {
     let period = DASH[0] + DASH[1];
     let (mut pieces, mut done) = (Vec::new(), 0.0);
@@ -265,7 +266,7 @@ fn dashes(points: &[[f64; 2]]) -> Vec<[[f64; 2]; 2]> {
         let [a, b] = [pair[0], pair[1]];
         let length = (b[0] - a[0]).hypot(b[1] - a[1]);
         let at = |s: f64| [0, 1].map(|k| a[k] + (b[k] - a[k]) * (s / length).clamp(0.0, 1.0));
-        // Pieces begin at multiples of the period along the whole line.
+        // Dashes begin at multiples of the period along the whole line.
         let first = (done / period).floor() as usize;
         let last = ((done + length) / period).ceil() as usize;
         for i in first..last {
@@ -289,7 +290,7 @@ mod tests {
         let points = [[0.0, 0.0], [300.0, 0.0], [300.0, 120.0]];
         let pieces = dashes(&points);
         let length: f64 = pieces.iter().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).sum();
-        // 20 periods of 21, exactly.
+        // Exactly 20 periods of length 21.
         assert!((length - 20.0 * DASH[0]).abs() < 1e-9, "{length}");
         assert!(pieces.iter().flatten().all(|[x, y]| (*y == 0.0 && *x <= 300.0) || *x == 300.0));
     }

@@ -6,7 +6,7 @@ use tiny_skia::{FillRule, LineCap, Paint, PathBuilder, Pixmap, Stroke, Transform
 use super::colour::Colour;
 use super::{style, text};
 
-/// Where a text's reference point lies along it.
+/// The position of a text's reference point along it.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -14,20 +14,22 @@ pub(super) enum Anchor {
     End,
 }
 
-/// One mark on the paper. Coordinates are pixels, y downward.
+/// A shape on paper. Coordinates are pixels, y downward.
 #[derive(Clone, Debug)]
 pub(super) enum Shape {
-    /// Filled by nonzero winding; the stroke is centred on the outline.
+    /// A polygon filled by the nonzero rule; the stroke is centred on the outline.
     Polygon { points: Vec<[f64; 2]>, fill: Colour, stroke: Option<(Colour, f64)> },
-    /// Separate straight pieces in one style, with round ends or ends cut at the end points.
+    /// Separate line segments in one style, with round ends or with ends cut at the end points.
     Segments { segments: Vec<[[f64; 2]; 2]>, colour: Colour, width: f64, round: bool },
-    /// `middle` is the text's reference point, halfway up its capitals; `upward` turns it by a quarter.
+    /// A text. `middle` is its reference point at half the height of capitals; `upward` rotates it
+    /// by 90°.
     Text { middle: [f64; 2], anchor: Anchor, size: f64, upward: bool, text: String },
-    /// A PNG file stretched over a rectangle. SVG only: pictures are painted on the pixels themselves.
+    /// A PNG file stretched over a rectangle. Used for SVG only: for PNG, pictures are drawn on the
+    /// pixels.
     Picture { corner: [f64; 2], size: [f64; 2], png: Vec<u8> },
 }
 
-/// Shapes on a sheet, later ones over earlier ones: the one description of which both formats are made.
+/// Shapes on a sheet, later ones over earlier ones. Both output formats are made from it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Drawing {
     pub(super) shapes: Vec<Shape>,
@@ -68,12 +70,12 @@ impl Drawing {
         self.shapes.push(Shape::Text { middle, anchor, size, upward: false, text: text.into() });
     }
 
-    /// Text along y, from below, around its middle.
+    /// Draws text rotated to run upward, centred at `middle`.
     pub(super) fn upward(&mut self, middle: [f64; 2], size: f64, text: impl Into<String>) {
         self.shapes.push(Shape::Text { middle, anchor: Anchor::Middle, size, upward: true, text: text.into() });
     }
 
-    /// The drawing as an SVG file on white paper.
+    /// Renders the drawing as an SVG file on white paper.
     pub(super) fn to_svg(&self, width: u32, height: u32) -> String {
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -90,7 +92,8 @@ impl Drawing {
         svg
     }
 
-    /// Paints the drawing over what is on `sheet`, at `zoom` pixels per unit of its coordinates.
+    /// Paints the drawing over the contents of `sheet`, at `zoom` pixels per unit of its
+    /// coordinates.
     pub(super) fn paint(&self, sheet: &mut Pixmap, zoom: usize) {
         let zoom = Transform::from_scale(zoom as f32, zoom as f32);
         for shape in &self.shapes {
@@ -127,7 +130,7 @@ fn write_svg(svg: &mut String, shape: &Shape) -> std::fmt::Result {
                 Anchor::End => "end",
             };
             let [x, y] = middle.map(Decimal);
-            // The baseline is placed by number: viewers disagree about dominant-baseline.
+            // The baseline is computed here, because viewers disagree about dominant-baseline.
             let shift = Decimal(text::CAP_HEIGHT / 2.0 * size);
             let turn = if *upward { " rotate(-90)" } else { "" };
             write!(svg, "<text transform=\"translate({x} {y}){turn}\" y=\"{shift}\" font-size=\"{size}\" ")?;
@@ -144,7 +147,7 @@ fn write_svg(svg: &mut String, shape: &Shape) -> std::fmt::Result {
     Ok(())
 }
 
-/// A coordinate in hundredths of a pixel without trailing zeros: what keeps 60 000 faces in a few megabytes.
+/// A coordinate rounded to hundredths of a pixel, without trailing zeros, to keep SVG files small.
 struct Decimal(f64);
 
 impl std::fmt::Display for Decimal {
@@ -153,7 +156,7 @@ impl std::fmt::Display for Decimal {
     }
 }
 
-/// Text as XML character data; characters that XML 1.0 forbids even as references become U+FFFD.
+/// Escapes text as XML character data; characters that XML 1.0 forbids become U+FFFD.
 fn escaped(text: &str) -> String {
     let mut xml = String::with_capacity(text.len());
     for c in text.chars() {

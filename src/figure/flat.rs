@@ -4,32 +4,35 @@ use crate::surface::Faces;
 
 /// A planar map drawn face by face, coloured by one number per face.
 ///
-/// Units are equal on both axes. Mesh edges are drawn when an average face is large enough on paper to carry them.
-/// Flipped faces, and faces of negative value, are drawn last in [`super::ALARM`], counted in a legend.
+/// Units are equal on both axes. Mesh edges are drawn if an average face is large enough on paper.
+/// Flipped faces, and faces of negative value, are drawn last in [`super::ALARM`] and counted in a
+/// legend.
 #[derive(Clone, Copy, Debug)]
 pub struct FlatMap<'a> {
-    /// `nv × 2`: the map. Vertices without a face may be anything.
+    /// The map, `nv × 2`. Coordinates of vertices without a face are ignored.
     pub points: &'a [[f64; 2]],
-    /// `nf` polygons.
+    /// The `nf` polygons.
     pub faces: &'a Faces,
-    /// `nf`: the quasi-conformal error σ₁/σ₂, 1 where conformal; +∞ where a face collapses, negative where it flips.
+    /// The quasi-conformal distortion σ1/σ2 of each face (`nf`): 1 if conformal, +∞ if the face
+    /// collapses, negative if it is flipped.
     pub values: &'a [f64],
     /// Faces mapped with reversed orientation, in any order.
     pub flipped: &'a [usize],
-    /// Where given, the scale ends at this value (> 1), in greys, and faces beyond it are drawn in [`super::MARK`].
+    /// If given, the scale ends at this value (> 1), in greys, and faces beyond it are drawn in
+    /// [`super::MARK`].
     pub mark: Option<f64>,
-    /// Over the map; two lines at most, may be empty.
+    /// Title above the map; at most two lines, possibly empty.
     pub title: &'a str,
-    /// Beside the colour bar.
+    /// Label of the colour bar.
     pub scale_label: &'a str,
 }
 
 impl FlatMap<'_> {
-    /// The picture as the bytes of a file.
+    /// Renders the picture to the bytes of a file.
     ///
     /// # Errors
-    /// Every variant of [`FigureError`] but `UnknownFormat`: what does not fit together, names no vertex, or has no
-    /// place on paper.
+    /// Every variant of [`FigureError`] but `UnknownFormat`: inconsistent sizes, indices out of
+    /// range, or coordinates that cannot be drawn.
     pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
         let page = Page::of(self, style::PLOT)?;
         match format {
@@ -38,7 +41,7 @@ impl FlatMap<'_> {
         }
     }
 
-    /// Checks the data; the bounding box of all faces.
+    /// Checks the data and returns the bounding box of all faces.
     pub(super) fn bounds(&self) -> Result<([f64; 2], [f64; 2]), FigureError> {
         let faces = self.faces.len();
         if faces == 0 {
@@ -69,7 +72,7 @@ impl FlatMap<'_> {
                 high = [high[0].max(x), high[1].max(y)];
             }
         }
-        // Polygons without a single corner.
+        // No polygon has a corner.
         if low[0] > high[0] {
             return Err(FigureError::NoFaces);
         }

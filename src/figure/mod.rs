@@ -1,11 +1,13 @@
-//! Pictures: maps drawn flat, surfaces with the map's checkerboard, plots; as PNG or SVG bytes.
+//! Pictures as PNG or SVG bytes: flat maps, surfaces with the checkerboard of a map, plots,
+//! diagrams.
 //!
-//! A figure reads plain data (points, polygons, one number per face) and never computes a map. It returns bytes, so that
-//! the caller decides where and how they are written. The same input gives the same bytes on every run.
+//! A figure takes plain data (points, polygons, one number per face) and never computes a map. It
+//! returns bytes; the caller decides where they are written. The same input always gives the same
+//! bytes.
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `flat.rs` | [`FlatMap`]: what is drawn, and its checks |
+//! | `flat.rs` | [`FlatMap`]: the data of a flat map, and its checks |
 //! | `page.rs` | layout; the order in which faces, edges and flipped faces are drawn, on vectors or pixels |
 //! | `scale.rs`, `colour.rs` | values → [0, 1] → colours, and the tick marks of a scale |
 //! | `frame.rs`, `bar.rs` | plane → paper with equal units on both axes, coordinates; colour bar and legend |
@@ -68,17 +70,17 @@ pub use sheet::{compose, small_copy};
 pub use style::{ALARM, MARK, OVER};
 pub use view::{Camera, Checker, Shading, SurfaceView};
 
-/// What a picture is written as.
+/// The file format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// RGB pixels, about 1600 × 1400.
     Png,
-    /// Vectors; above 60 000 faces the faces alone are an embedded PNG.
+    /// Vector graphics; with more than 60 000 faces, the faces are an embedded PNG.
     Svg,
 }
 
 impl Format {
-    /// The format that a file's extension names, in upper or lower case.
+    /// Returns the format of a file's extension, in upper or lower case.
     ///
     /// # Errors
     /// [`FigureError::UnknownFormat`] for anything but `.png` and `.svg`.
@@ -91,19 +93,19 @@ impl Format {
     }
 }
 
-/// Why a picture cannot be drawn. Faces and vertices count from 0.
+/// A picture cannot be drawn. Indices of faces and vertices count from 0.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// The extension names neither format.
+    /// The extension does not belong to either format.
     #[error("cannot tell the picture's format from `{}`: name it .png or .svg", path.display())]
     UnknownFormat {
         /// The path as given.
         path: PathBuf,
     },
-    /// Nothing to draw.
+    /// There are no faces.
     #[error("the map has no faces, so there is nothing to draw")]
     NoFaces,
-    /// One value per face is wanted.
+    /// The number of values is not the number of faces.
     #[error("{values} values for {faces} faces: the picture needs one value per face")]
     ValueCount {
         /// Number of values given.
@@ -111,43 +113,43 @@ pub enum FigureError {
         /// Number of faces.
         faces: usize,
     },
-    /// A value that no colour stands for.
+    /// A value is NaN.
     #[error("the value of face {face} (0-based) is not a number")]
     Value {
         /// The face.
         face: usize,
     },
-    /// A face names a vertex that has no position.
+    /// A face refers to a vertex that has no position.
     #[error("face {face} has vertex {vertex}, but there are only {points} points (all counted from 0)")]
     Vertex {
         /// The face.
         face: usize,
-        /// The vertex it names.
+        /// The vertex.
         vertex: u32,
         /// Number of points.
         points: usize,
     },
-    /// A flipped face that does not exist.
-    #[error("face {face} is said to be flipped, but there are only {faces} faces (counted from 0)")]
+    /// A flipped face does not exist.
+    #[error("face {face} is listed as flipped, but there are only {faces} faces (counted from 0)")]
     Flipped {
         /// The face.
         face: usize,
         /// Number of faces.
         faces: usize,
     },
-    /// NaN or infinite coordinates.
+    /// Coordinates are NaN or infinite.
     #[error("vertex {vertex} of face {face} (0-based) is mapped to ({x}, {y}), which is no point of the plane")]
     Point {
         /// The vertex.
         vertex: u32,
-        /// The first face that has it.
+        /// The first face with this vertex.
         face: usize,
         /// Its first coordinate.
         x: f64,
         /// Its second coordinate.
         y: f64,
     },
-    /// All vertices at one place.
+    /// All vertices are at one position.
     #[error("all vertices are mapped to ({x}, {y}): the map has no extent to draw")]
     NoExtent {
         /// First coordinate.
@@ -155,7 +157,7 @@ pub enum FigureError {
         /// Second coordinate.
         y: f64,
     },
-    /// Width or height exceeds what floating point can scale.
+    /// Width or height is too large to be scaled in floating point.
     #[error("the map is {width:e} wide and {height:e} high, too large to be scaled to paper")]
     Extent {
         /// Width of the bounding box.
@@ -163,7 +165,7 @@ pub enum FigureError {
         /// Height of the bounding box.
         height: f64,
     },
-    /// Texture coordinates do not match the corners of the faces.
+    /// The number of texture coordinates is not the number of corners.
     #[error(
         "{given} texture coordinates for {corners} corners: the picture needs one pair per corner, face after face"
     )]
@@ -173,35 +175,35 @@ pub enum FigureError {
         /// Number of corners of all faces.
         corners: usize,
     },
-    /// Texture coordinates that are NaN or infinite.
+    /// Texture coordinates are NaN or infinite.
     #[error("vertex {vertex} of face {face} (0-based) has texture coordinates ({u}, {v}), which are not finite")]
     Texture {
         /// The vertex.
         vertex: u32,
-        /// The face at whose corner they are.
+        /// The face of the corner.
         face: usize,
         /// The first coordinate.
         u: f64,
         /// The second coordinate.
         v: f64,
     },
-    /// A scale of values from 1 that would end before it begins.
+    /// The upper end of a scale that begins at 1 is not above 1.
     #[error("faces cannot be marked beyond {mark}: errors begin at 1, so the mark must be above it")]
     Mark {
-        /// As asked for.
+        /// The requested upper end.
         mark: f64,
     },
-    /// Squares that a map has no place for.
+    /// The number of squares does not suit the size of the map.
     #[error("{squares} squares cannot be laid across a map {width} wide and {height} high")]
     Squares {
-        /// As asked for.
+        /// The requested number.
         squares: usize,
         /// Width of the map.
         width: f64,
         /// Height of the map.
         height: f64,
     },
-    /// One normal per face is wanted.
+    /// The number of normals is not the number of faces.
     #[error("{normals} normals for {faces} faces: the picture needs one normal per face")]
     NormalCount {
         /// Number of normals given.
@@ -209,7 +211,7 @@ pub enum FigureError {
         /// Number of faces.
         faces: usize,
     },
-    /// A marked face that does not exist.
+    /// A marked face does not exist.
     #[error("face {face} is to be marked, but there are only {faces} faces (counted from 0)")]
     Marked {
         /// The face.
@@ -217,7 +219,7 @@ pub enum FigureError {
         /// Number of faces.
         faces: usize,
     },
-    /// A seam ends in a vertex that is on no face.
+    /// A seam ends at a vertex of no face.
     #[error("seam {seam} ends at vertex {vertex}, which no face has (both counted from 0)")]
     Seam {
         /// The seam.
@@ -225,43 +227,43 @@ pub enum FigureError {
         /// The vertex.
         vertex: u32,
     },
-    /// A position that is NaN or infinite.
+    /// A position is NaN or infinite.
     #[error("vertex {vertex} of face {face} (0-based) is at {at:?}, which is no point of space")]
     Position {
         /// The vertex.
         vertex: u32,
-        /// The first face that has it.
+        /// The first face with this vertex.
         face: usize,
         /// Its position.
         at: [f64; 3],
     },
-    /// A surface that is a point, or is seen as one.
+    /// The surface is a single point, or is seen as one.
     #[error("the surface is seen as a single point, at {at:?}: it has no extent to draw")]
     NoSurfaceExtent {
         /// One of its points.
         at: [f64; 3],
     },
-    /// A surface whose size floating point cannot scale.
+    /// The surface is too large to be scaled in floating point.
     #[error("the surface measures {size:?}, too large to be scaled to paper")]
     SurfaceExtent {
-        /// Of its bounding box.
+        /// Size of the bounding box.
         size: [f64; 3],
     },
-    /// A direction of the camera that is none.
+    /// A direction of the camera is zero or not finite.
     #[error("the camera's direction `{name}` is {vector:?}: it must be finite and not 0")]
     Direction {
-        /// Which.
+        /// Name of the direction.
         name: &'static str,
-        /// As given.
+        /// The vector that was given.
         vector: [f64; 3],
     },
-    /// An angle that no lens has.
+    /// The field of view is out of range.
     #[error("the camera's field of view is {angle}°: it must be from 0.1 to 90")]
     FieldOfView {
         /// In degrees.
         angle: f64,
     },
-    /// Margins and title leave no room.
+    /// Margins and title leave no room for the picture.
     #[error("margins and title leave {width} × {height} pixels for the picture: ask for a larger one")]
     Room {
         /// Pixels across.
@@ -269,7 +271,7 @@ pub enum FigureError {
         /// Pixels down.
         height: f64,
     },
-    /// No such sheet of pixels.
+    /// A sheet of this size cannot be allocated.
     #[error("a sheet of {width} × {height} pixels cannot be made")]
     Sheet {
         /// Pixels across.
@@ -277,16 +279,16 @@ pub enum FigureError {
         /// Pixels down.
         height: u32,
     },
-    /// A plot without a single point.
+    /// The plot has no points that can be shown.
     #[error("the plot has no point that its axes can show, so there is nothing to draw")]
     NoPoints,
-    /// A straight line of that slope is not straight on these axes.
+    /// A reference line with a slope needs logarithmic axes.
     #[error("the reference line `{label}` has a slope, which needs both axes logarithmic")]
     Slope {
-        /// Its name.
+        /// Its label.
         label: String,
     },
-    /// Values that floating point cannot scale to paper.
+    /// The range of the values is too large or too small to be scaled in floating point.
     #[error("the plot's values would need an axis from {low:e} to {high:e}, which cannot be drawn")]
     PlotRange {
         /// Lower end.
@@ -294,14 +296,14 @@ pub enum FigureError {
         /// Upper end.
         high: f64,
     },
-    /// What plotters says.
+    /// An error of the crate plotters.
     #[error("the plot could not be laid out")]
     Layout(#[from] plotters::drawing::DrawingAreaErrorKind<std::convert::Infallible>),
-    /// A sheet of nothing.
+    /// There are no panels or pictures.
     #[error("there is no picture to put on the sheet")]
     NoPanels,
-    /// A place in a diagram that is NaN or infinite.
-    #[error("a place in the panel `{title}` is ({x}, {y}), which is no point of the plane")]
+    /// A position in a diagram is NaN or infinite.
+    #[error("a position in the panel `{title}` is ({x}, {y}), which is no point of the plane")]
     PanelPoint {
         /// Title of the panel.
         title: String,
@@ -310,16 +312,16 @@ pub enum FigureError {
         /// Its second coordinate.
         y: f64,
     },
-    /// A panel in which all is at one place, or nothing is.
+    /// A panel is empty, or all of its items are at one position.
     #[error("the panel `{title}` has no extent to draw")]
     PanelExtent {
         /// Its title.
         title: String,
     },
-    /// A PNG file of another kind than figures are.
-    #[error("the picture is no PNG of 8-bit RGB, as figures are")]
+    /// A PNG file does not have the pixel format of figures.
+    #[error("the picture is not a PNG file of 8-bit RGB pixels")]
     Panel,
-    /// No PNG file.
+    /// A file is not a PNG file.
     #[error("the picture cannot be read as PNG")]
     Decode(#[from] png::DecodingError),
     /// The encoder refused the picture.

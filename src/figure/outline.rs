@@ -1,6 +1,7 @@
 use crate::surface::Faces;
 
-/// Every edge of the polygons once, as its two vertices in increasing order, with whether only one face has it.
+/// Returns every edge of the polygons once, as its vertices in increasing order and whether it
+/// belongs to only one face.
 pub(super) fn edges(faces: &Faces) -> Vec<([u32; 2], bool)> {
     let mut all: Vec<[u32; 2]> = Vec::with_capacity(faces.corners().len());
     for polygon in faces.iter() {

@@ -9,28 +9,32 @@ use super::raster::{Raster, SAMPLES, Sheet, blank_sheet, encode_png};
 use super::scale::Scale;
 use super::{FigureError, FlatMap, style, text};
 
-/// Above as many corners the faces of an SVG become a picture: 60 000 quads, about 8 MB.
+/// Largest number of corners for which the faces of an SVG are vectors (60 000 quads, about 8 MB);
+/// with more they become an embedded picture.
 const VECTOR_CORNERS: usize = 240_000;
-/// Pixels of that picture per pixel of paper, if the file stays below [`PICTURE_BYTES`]; else one.
+/// Resolution of that picture in pixels per pixel of paper; 1 if the file would exceed
+/// [`PICTURE_BYTES`].
 const PICTURE_ZOOM: usize = 2;
 const PICTURE_BYTES: usize = 8_000_000;
-/// Mesh edges are drawn when an average face covers as many square pixels.
+/// Mesh edges are drawn if an average face covers at least this many square pixels.
 const FACE_WITH_EDGES: f64 = 60.0;
-/// Width of the strokes in a face's own colour that close the seams which viewers of an SVG leave between neighbours.
+/// Width of the stroke of each face in its own colour; it closes the seams that SVG viewers leave
+/// between neighbouring faces.
 const SEAM: f64 = 1.0;
-/// Width of the strokes that keep flipped slivers visible.
+/// Width of the strokes that keep thin flipped faces visible.
 const ALARM_STROKE: f64 = 2.0;
-/// More boundary edges than these, as of faces that share no vertices, are not an outline: drawn, they would hide all.
+/// Largest number of boundary edges that are drawn. If faces share no vertices, every edge is a
+/// boundary edge and would hide them.
 const OUTLINE_EDGES: usize = 100_000;
 /// Width of the map's outline.
 const OUTLINE: f64 = 1.6;
 
-/// What a scale is painted with.
+/// The colours of a scale.
 #[derive(Clone, Copy)]
 pub(super) struct Colours {
-    /// Of t ∈ [0, 1].
+    /// The colour of t ∈ [0, 1].
     pub(super) on_scale: fn(f64) -> Colour,
-    /// Of values that exceed the scale.
+    /// The colour of values beyond the scale.
     pub(super) beyond: Colour,
 }
 
@@ -39,7 +43,7 @@ impl Colours {
     const MARKED: Colours = Colours { on_scale: grey, beyond: style::MARK };
 }
 
-/// A checked map with everything that is decided before drawing. Lengths are pixels.
+/// A checked map with its layout. Lengths are pixels.
 pub(super) struct Page<'a> {
     map: &'a FlatMap<'a>,
     scale: Scale,
@@ -54,7 +58,7 @@ pub(super) struct Page<'a> {
 }
 
 impl<'a> Page<'a> {
-    /// With a plot area whose longer side has `longest` pixels.
+    /// Lays out a page whose plot area has a longer side of `longest` pixels.
     pub(super) fn of(map: &'a FlatMap<'a>, longest: f64) -> Result<Page<'a>, FigureError> {
         let (low, high) = map.bounds()?;
         let frame = Frame::around(low, high, longest)?;
@@ -92,7 +96,7 @@ impl<'a> Page<'a> {
         encode_png(&self.sheet(1)?.pixels, 1)
     }
 
-    /// The page in pixels, `zoom` times as large as on paper.
+    /// Renders the page at `zoom` pixels per pixel of paper.
     pub(super) fn sheet(&self, zoom: usize) -> Result<Sheet, FigureError> {
         let mut pixels = blank_sheet(self.size[0] * zoom as u32, self.size[1] * zoom as u32)?;
         let [x, y] = self.corner.map(|c| c as i32 * zoom as i32);
@@ -119,7 +123,7 @@ impl<'a> Page<'a> {
         Ok(drawing.to_svg(self.size[0], self.size[1]))
     }
 
-    /// The plot area in pixels, `zoom` times as large as on paper.
+    /// Renders the plot area at `zoom` pixels per pixel of paper.
     fn picture(&self, zoom: usize) -> Result<Pixmap, FigureError> {
         let [width, height] = self.frame.size.map(|s| s as usize);
         let mut raster = Raster::new(width, height, zoom, (SAMPLES / zoom).max(1));
@@ -131,14 +135,15 @@ impl<'a> Page<'a> {
         Ok(sheet)
     }
 
-    /// Calls `draw` with corners and colour of each face that is not flipped; the plot area begins at `corner`.
+    /// Calls `draw` with the corners and the colour of each face that is not flipped; the plot area
+    /// begins at `corner`.
     fn faces(&self, corner: [f64; 2], mut draw: impl FnMut(Vec<[f64; 2]>, Colour)) {
         for face in (0..self.map.faces.len()).filter(|f| !self.flipped[*f]) {
             draw(self.polygon(face, corner), self.colour(face));
         }
     }
 
-    /// Mesh edges if an average face has room for them, the outline; flipped faces over all of it.
+    /// Draws mesh edges if an average face is large enough, then the outline, then flipped faces.
     fn lines_and_flipped_faces(&self, corner: [f64; 2], drawing: &mut Drawing) {
         let faces = 0..self.map.faces.len();
         let face_area = faces.clone().map(|f| area(&self.polygon(f, corner))).sum::<f64>() / faces.len() as f64;
@@ -175,10 +180,10 @@ impl<'a> Page<'a> {
         self.scale.position(self.map.values[face]).map_or(self.colours.beyond, self.colours.on_scale)
     }
 
-    /// Title, frame with coordinates, colour bar, legend.
+    /// Draws title, frame with coordinates, colour bar and legend.
     fn surroundings(&self, drawing: &mut Drawing) {
         let [left, top] = self.corner;
-        // Centred over the plot unless that would leave the sheet.
+        // Centred over the plot unless it would leave the sheet.
         let widest = self.title.iter().map(|line| text::width(line, style::TITLE)).fold(0.0, f64::max);
         let half = style::MARGIN + style::WIDER_FONT * widest / 2.0;
         let x = (left + self.frame.size[0] / 2.0).min(f64::from(self.size[0]) - half).max(half);
@@ -191,7 +196,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// Area of a simple polygon, by Gauss.
+/// The area of a simple polygon (shoelace formula).
 fn area(points: &[[f64; 2]]) -> f64 {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum::<f64>().abs() / 2.0

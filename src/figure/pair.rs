@@ -5,19 +5,19 @@ use super::page::Page;
 use super::raster::{blank_sheet, encode_png};
 use super::{FigureError, FlatMap, SurfaceView, style, text};
 
-/// A map, flat, on the left; its checkerboard on the surface on the right; a caption below.
+/// A flat map on the left, its checkerboard on the surface on the right, and a caption below.
 ///
-/// The titles of both stand over them, and may be empty. The figure is as wide as a page, in twice as many pixels as other
-/// figures, since both share its width.
+/// The titles of both are above them, and can be empty. The figure has the width of a page and
+/// twice the resolution of other figures, because the parts share the width.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
-    /// Left.
+    /// The left part.
     pub flat: &'a FlatMap<'a>,
-    /// Right.
+    /// The right part.
     pub view: &'a SurfaceView<'a>,
-    /// Longest side of either picture in units of paper; [`Pair::SIDE`] fills a page's width.
+    /// Longest side of either picture, in units of paper; [`Pair::SIDE`] fills the width of a page.
     pub side: f64,
-    /// Below; may be empty. It is broken where it has line breaks, and where it is too long.
+    /// Text below; possibly empty. It is broken at line breaks and where it is too long.
     pub caption: &'a str,
 }
 
@@ -25,20 +25,20 @@ pub struct Pair<'a> {
 const ZOOM: usize = 2;
 
 impl Pair<'_> {
-    /// The side of a figure for a page.
+    /// The value of `side` for a figure of page width.
     pub const SIDE: f64 = 640.0;
 
-    /// The figure as the bytes of a PNG file.
+    /// Renders the figure to the bytes of a PNG file.
     ///
     /// # Errors
-    /// Those of both parts.
+    /// Errors of both parts.
     pub fn render(&self) -> Result<Vec<u8>, FigureError> {
         let left = Page::of(self.flat, self.side)?.sheet(ZOOM)?;
         let title = if self.view.title.is_empty() { 0.0 } else { 2.0 * style::TITLE_LINE };
         let right =
             self.view.sheet([self.side + 2.0 * style::MARGIN, self.side + 2.0 * style::MARGIN + title], ZOOM)?;
 
-        // The middles of both pictures are on one level.
+        // The centres of both pictures are at the same height.
         let level = left.middle.max(right.middle);
         let tops = [&left, &right].map(|part| ((level - part.middle) * ZOOM as f64).round() as u32);
         let bottom = (tops[0] + left.pixels.height()).max(tops[1] + right.pixels.height()).div_ceil(ZOOM as u32);

@@ -4,18 +4,20 @@ use tiny_skia::Pixmap;
 
 use super::FigureError;
 
-/// Colours of a palette at most: what one byte can number.
+/// Largest number of colours of a palette: those that one byte can number.
 const COLOURS: usize = 256;
 
-/// An opaque sheet as a PNG file of at most 256 colours, found by median cut: the box of colours in which most varies is
-/// cut where its variance falls most, until there are enough, and each stands for its mean.
+/// Encodes an opaque sheet as a PNG file of at most 256 colours, found by median cut.
+///
+/// The box of colours with the largest variance is cut where this reduces its variance most, until
+/// there are enough boxes; each is represented by its mean.
 pub(super) fn encode_indexed(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
     let mut counts: HashMap<[u8; 3], u64> = HashMap::new();
     for pixel in sheet.data().chunks_exact(4) {
         *counts.entry([pixel[0], pixel[1], pixel[2]]).or_default() += 1;
     }
     let mut colours: Vec<([u8; 3], u64)> = counts.into_iter().collect();
-    // The order of a hash map differs from run to run.
+    // Sorted, because the order of a hash map differs between runs.
     colours.sort_unstable();
     let mut number: HashMap<[u8; 3], u8> = HashMap::with_capacity(colours.len());
     let mut palette = Vec::with_capacity(3 * COLOURS);
@@ -30,7 +32,7 @@ pub(super) fn encode_indexed(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_palette(palette);
     encoder.set_compression(png::Compression::High);
-    // Numbers of colours are no intensities that filters could predict.
+    // Colour indices are not intensities that filters could predict.
     encoder.set_filter(png::Filter::NoFilter);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&pixels)?;
@@ -41,11 +43,11 @@ pub(super) fn encode_indexed(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
 /// Colours with their numbers of pixels.
 type Counted = [([u8; 3], u64)];
 
-/// At most [`COLOURS`] boxes.
+/// Divides colours into at most [`COLOURS`] boxes.
 fn boxes(colours: &mut Counted) -> Vec<&Counted> {
     let mut boxes: Vec<(f64, &mut Counted)> = vec![(scatter(colours), colours)];
     while boxes.len() < COLOURS {
-        // The last of equals.
+        // Of equal ones the last.
         let widest = (0..boxes.len()).max_by(|&a, &b| boxes[a].0.total_cmp(&boxes[b].0)).unwrap_or_default();
         if boxes.is_empty() || boxes[widest].0 == 0.0 {
             break;
@@ -58,7 +60,8 @@ fn boxes(colours: &mut Counted) -> Vec<&Counted> {
     boxes.into_iter().map(|(_, colours)| &*colours).collect()
 }
 
-/// Cuts a box of two colours or more across the channel that varies most, where both parts together vary least.
+/// Cuts a box of at least two colours across the channel of largest variance, where the total
+/// variance of both parts is smallest.
 fn cut(colours: &mut Counted) -> [&mut Counted; 2] {
     let channel = (0..3).max_by(|&a, &b| spread(colours, a).total_cmp(&spread(colours, b))).unwrap_or_default();
     colours.sort_unstable_by_key(|(colour, _)| (colour[channel], *colour));
@@ -66,7 +69,8 @@ fn cut(colours: &mut Counted) -> [&mut Counted; 2] {
     let (mut below, mut best, mut at) = ((0.0, 0.0), f64::NEG_INFINITY, 1);
     for i in 0..colours.len() - 1 {
         below = weighed(below, &colours[i], channel);
-        // The sum of squares falls by what the squares of both means weigh.
+        // The reduction of the sum of squares is the weighted sum of the squares of both means, up
+        // to a constant.
         let above = (total.0 - below.0, total.1 - below.1);
         let gain = below.1 * below.1 / below.0 + above.1 * above.1 / above.0;
         if colours[i].0[channel] != colours[i + 1].0[channel] && gain > best {
@@ -81,13 +85,13 @@ fn weighed((count, sum): (f64, f64), (colour, n): &([u8; 3], u64), channel: usiz
     (count + *n as f64, sum + *n as f64 * f64::from(colour[channel]))
 }
 
-/// Sum over all pixels of the squared distance to the mean, in one channel.
+/// The sum over all pixels of the squared difference from the mean, in one channel.
 fn spread(colours: &Counted, channel: usize) -> f64 {
     let mean = mean(colours)[channel];
     colours.iter().map(|(colour, n)| *n as f64 * (f64::from(colour[channel]) - mean).powi(2)).sum()
 }
 
-/// The same in the channel where it is largest; 0 for a single colour.
+/// The largest [`spread`] of a channel; 0 for a single colour.
 fn scatter(colours: &Counted) -> f64 {
     if colours.len() < 2 { 0.0 } else { (0..3).map(|channel| spread(colours, channel)).fold(0.0, f64::max) }
 }
@@ -108,7 +112,8 @@ mod tests {
         for part in boxes(&mut few) {
             assert_eq!(part.len(), 1);
         }
-        // 16 million colours would be 256 boxes of 40³; a surface in two hues is less.
+        // A small stand-in for a surface in two hues; all 16 million colours would give 256 boxes
+        // of 40³.
         let mut many: Vec<_> = (0..5000u32).map(|i| ([(i % 251) as u8, (i % 83) as u8, (i / 20) as u8], 1)).collect();
         let parts = boxes(&mut many);
         assert_eq!(parts.len(), COLOURS);

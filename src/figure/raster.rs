@@ -6,24 +6,25 @@ use super::FigureError;
 use super::colour::Colour;
 use super::style;
 
-/// Samples per pixel along each axis when pictures are made for direct viewing: 17 grey levels along an edge.
+/// Samples per pixel along each axis in pictures for direct viewing: 17 grey levels along an edge.
 pub(super) const SAMPLES: usize = 4;
 
-/// A picture with `samples²` colour samples a pixel, on which later shapes cover earlier ones.
+/// A picture with `samples²` colour samples per pixel, on which later shapes cover earlier ones.
 ///
-/// Point sampling gives each sample to one of two faces that share an edge: no seams, no order dependence between
-/// faces that do not overlap, which coverage-based anti-aliasing cannot give.
+/// Point sampling assigns each sample to exactly one of two faces that share an edge. There are no
+/// seams, and the order of faces that do not overlap is irrelevant; anti-aliasing by coverage
+/// cannot achieve this.
 pub(super) struct Raster {
     width: usize,
     height: usize,
     samples: usize,
-    /// Samples per unit of the coordinates that shapes are given in.
+    /// Samples per unit of the coordinates of shapes.
     scale: f64,
     cells: Vec<[u8; 3]>,
 }
 
 impl Raster {
-    /// `width × height` units with `zoom` pixels each along both axes, all of it the colour of paper.
+    /// Makes a blank picture of `width × height` units with `zoom` pixels each along both axes.
     pub(super) fn new(width: usize, height: usize, zoom: usize, samples: usize) -> Raster {
         let Colour(paper) = style::PAPER;
         let (width, height) = (width * zoom, height * zoom);
@@ -31,7 +32,7 @@ impl Raster {
         Raster { width, height, samples, scale: (zoom * samples) as f64, cells }
     }
 
-    /// Fills a polygon: nonzero winding, so both lobes of a crossed quad are filled.
+    /// Fills a polygon by the nonzero rule, so that both lobes of a crossed quad are filled.
     pub(super) fn fill(&mut self, mut points: Vec<[f64; 2]>, Colour(colour): Colour) {
         points.iter_mut().for_each(|p| *p = p.map(|c| c * self.scale));
         let columns = self.width * self.samples;
@@ -40,7 +41,7 @@ impl Raster {
         });
     }
 
-    /// The mean colour of each pixel's samples.
+    /// Averages the samples of each pixel.
     pub(super) fn resolve(&self) -> Result<Pixmap, FigureError> {
         let (s, columns) = (self.samples, self.width * self.samples);
         let count = (s * s) as u32;
@@ -66,19 +67,20 @@ impl Raster {
 /// A finished figure in pixels.
 pub(super) struct Sheet {
     pub(super) pixels: Pixmap,
-    /// How far below the upper edge the middle of its plot area is, in units of paper.
+    /// Distance from the upper edge to the centre of the plot area, in units of paper.
     pub(super) middle: f64,
 }
 
-/// White paper.
+/// Makes a white sheet.
 pub(super) fn blank_sheet(width: u32, height: u32) -> Result<Pixmap, FigureError> {
     let mut sheet = Pixmap::new(width, height).ok_or(FigureError::Sheet { width, height })?;
     sheet.data_mut().fill(u8::MAX);
     Ok(sheet)
 }
 
-/// Calls `paint(row, columns)` for every run of unit cells whose centres lie inside a polygon by the nonzero rule,
-/// clipped to `width × height` cells. A centre on an edge belongs to the polygon on one fixed side of it.
+/// Calls `paint(row, columns)` for every run of unit cells whose centres lie inside a polygon
+/// (nonzero rule), clipped to `width × height` cells. A centre on an edge belongs to a fixed side
+/// of the edge.
 pub(super) fn spans(polygon: &[[f64; 2]], width: usize, height: usize, mut paint: impl FnMut(usize, Range<usize>)) {
     let low = polygon.iter().fold(f64::INFINITY, |m, p| m.min(p[1]));
     let high = polygon.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p[1]));
@@ -88,7 +90,8 @@ pub(super) fn spans(polygon: &[[f64; 2]], width: usize, height: usize, mut paint
         crossings.clear();
         for (i, p) in polygon.iter().enumerate() {
             let q = &polygon[(i + 1) % polygon.len()];
-            // From the lower end always, so that both faces of an edge compute the same crossing to the last bit.
+            // Computed from the lower end, so that both faces of an edge get exactly the same
+            // crossing.
             let (a, b, turn) = if p[1] <= q[1] { (p, q, 1) } else { (q, p, -1) };
             if a[1] <= y && y < b[1] {
                 crossings.push((a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1])), turn));
@@ -106,13 +109,13 @@ pub(super) fn spans(polygon: &[[f64; 2]], width: usize, height: usize, mut paint
     }
 }
 
-/// Index of the first cell whose centre is at or behind `x`, at most `limit`.
+/// Returns the index of the first cell whose centre is not before `x`, at most `limit`.
 pub(super) fn first_centre(x: f64, limit: usize) -> usize {
     // The conversion saturates: negative numbers become 0.
     ((x - 0.5).ceil() as usize).min(limit)
 }
 
-/// An opaque sheet as a PNG file, `zoom` pixels per unit of the coordinates that sizes on paper are given in.
+/// Encodes an opaque sheet as a PNG file with `zoom` pixels per unit of paper.
 pub(super) fn encode_png(sheet: &Pixmap, zoom: u32) -> Result<Vec<u8>, FigureError> {
     let rgb: Vec<u8> = sheet.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
     let mut bytes = Vec::new();
@@ -143,7 +146,8 @@ mod tests {
 
     #[test]
     fn neighbours_share_no_sample_and_leave_none_out() {
-        // A fan of 97 triangles around an irrational point: every cell of the square belongs to exactly one.
+        // A fan of 97 triangles around an irrational point: every cell of the square belongs to
+        // exactly one.
         let centre = [50.0 * 2f64.sqrt(), 100.0 / 3.0];
         let corners = [[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]];
         let rim: Vec<[f64; 2]> = (0..97)
@@ -170,7 +174,7 @@ mod tests {
 
     #[test]
     fn both_lobes_of_a_crossed_quad_and_no_more_of_a_dart_are_filled() {
-        // Two triangles of 40 × 20 / 2; a triangle of 40 × 40 / 2 less one of 40 × 10 / 2.
+        // Two triangles of area 40 × 20 / 2; a triangle of 40 × 40 / 2 minus one of 40 × 10 / 2.
         assert!(area(&[[10.0, 10.0], [50.0, 50.0], [10.0, 50.0], [50.0, 10.0]]).abs_diff(800) <= 40);
         assert!(area(&[[10.0, 10.0], [30.0, 20.0], [50.0, 10.0], [30.0, 50.0]]).abs_diff(600) <= 40);
     }

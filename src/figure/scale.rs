@@ -1,8 +1,9 @@
-/// How values ≥ 1 (1: conformal) are laid on a colour bar from 1 to [`Scale::upper`].
+/// The scale of values ≥ 1 (1: conformal) on a colour bar from 1 to [`Scale::upper`].
 ///
-/// The upper end is the 99th percentile of the finite values, rounded up to a number that reads well, so that a few bad
-/// faces do not wash out the rest; when the largest value is not much beyond, it is included. Linear in the value up
-/// to 10, logarithmic above. Values that equal 1 up to rounding get the range 1 … 1.001.
+/// The upper end is the 99th percentile of the finite values, rounded up to a round number, so that
+/// a few bad faces do not determine the scale; if the largest value is not much larger, it is
+/// included. The scale is linear up to 10 and logarithmic above. Values that equal 1 up to rounding
+/// get the range 1 … 1.001.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     upper: f64,
@@ -11,13 +12,13 @@ pub struct Scale {
     exceeded: bool,
 }
 
-/// Shortest range of a scale: differences below it are not worth a colour.
+/// Shortest range of a scale; smaller differences are not significant.
 const SHORTEST: f64 = 1e-3;
-/// Above this upper end a linear scale would show everything usual in its first colour.
+/// Largest upper end of a linear scale; with a larger one most values would have the first colour.
 const LARGEST_LINEAR: f64 = 10.0;
-/// The largest value is on the scale when its distance from 1 is within this factor of the percentile's.
+/// The largest value is included if its distance from 1 is within this factor of the percentile's.
 const STRETCH: f64 = 1.5;
-/// Mantissas of ranges and the tick step that divides each evenly.
+/// Mantissas of ranges, each with a tick step that divides it evenly.
 const RANGES: [(f64, f64); 11] = [
     (1.0, 0.2),
     (1.2, 0.2),
@@ -33,7 +34,7 @@ const RANGES: [(f64, f64); 11] = [
 ];
 
 impl Scale {
-    /// The scale for `values`; +∞ counts as beyond it, negative values and NaN are passed over.
+    /// Makes the scale of `values`; +∞ is beyond it, negative values and NaN are ignored.
     pub fn for_errors(values: impl IntoIterator<Item = f64>) -> Scale {
         let (mut finite, mut infinite) = (Vec::new(), false);
         for v in values {
@@ -54,12 +55,12 @@ impl Scale {
             let (range, step) = round_up_range((wanted - 1.0).max(SHORTEST));
             (1.0 + range, step, false)
         };
-        // A value that differs from the upper end by rounding alone is on the scale.
+        // A value that exceeds the upper end only by rounding is on the scale.
         let exceeded = infinite || largest - 1.0 > (upper - 1.0) * (1.0 + 1e-9);
         Scale { upper, step, logarithmic, exceeded }
     }
 
-    /// The scale from 1 to a given upper end (> 1), which some of `values` may exceed.
+    /// Makes the scale from 1 to a given upper end (> 1), which some of `values` can exceed.
     pub fn up_to(upper: f64, values: impl IntoIterator<Item = f64>) -> Scale {
         let logarithmic = upper > LARGEST_LINEAR;
         Scale { upper, step: (upper - 1.0) / 5.0, logarithmic, exceeded: values.into_iter().any(|v| v > upper) }
@@ -75,13 +76,13 @@ impl Scale {
         self.exceeded
     }
 
-    /// Place on the bar, 0 at value 1 (and below) and 1 at the upper end; `None` beyond it.
+    /// The position on the bar: 0 at value 1 (and below), 1 at the upper end, `None` beyond it.
     pub fn position(&self, value: f64) -> Option<f64> {
         let t = if self.logarithmic { value.ln() / self.upper.ln() } else { (value - 1.0) / (self.upper - 1.0) };
         (t <= 1.0 + 1e-9).then(|| t.clamp(0.0, 1.0))
     }
 
-    /// Places and labels of the tick marks, the first at 1, the last at the upper end.
+    /// Positions and labels of the tick marks, the first at 1, the last at the upper end.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         if self.logarithmic {
             return self.logarithmic_ticks();
@@ -91,12 +92,13 @@ impl Scale {
         (0..=count).map(|k| (k as f64 / count as f64, format!("{:.decimals$}", 1.0 + k as f64 * self.step))).collect()
     }
 
-    /// The upper end as on its tick mark.
+    /// The label of the upper end.
     pub fn upper_label(&self) -> String {
         self.ticks().pop().map(|(_, label)| label).unwrap_or_default()
     }
 
-    /// 1, 2, 5 of every decade when there are at most three; else decades, thinned to about eight.
+    /// Ticks at 1, 2, 5 of every decade if there are at most three; otherwise at decades, thinned
+    /// to about eight.
     fn logarithmic_ticks(&self) -> Vec<(f64, String)> {
         let decades = self.upper.log10();
         let mantissas: &[f64] = if decades <= 3.0 + 1e-9 { &[1.0, 2.0, 5.0] } else { &[1.0] };
@@ -109,7 +111,7 @@ impl Scale {
         match ticks.last() {
             Some((t, _)) if *t > 1.0 - 1e-9 => {}
             last => {
-                // Two labels closer than this would touch.
+                // Labels closer than this would touch.
                 if last.is_some_and(|(t, _)| *t > 0.94) {
                     ticks.pop();
                 }
@@ -120,7 +122,8 @@ impl Scale {
     }
 }
 
-/// Smallest mantissa × power of ten that is not below `range`, and a step that divides it.
+/// Returns the smallest mantissa × power of ten that is at least `range`, and a step that divides
+/// it.
 fn round_up_range(range: f64) -> (f64, f64) {
     let power = 10f64.powf(range.log10().floor());
     let (mantissa, step) =
@@ -128,14 +131,14 @@ fn round_up_range(range: f64) -> (f64, f64) {
     (mantissa * power, step * power)
 }
 
-/// Smallest of 1, 2, 5 × power of ten that is not below `value`; the largest float when there is none.
+/// Returns the smallest of 1, 2, 5 × power of ten that is at least `value`, or the largest float.
 fn round_up_in_decade(value: f64) -> f64 {
     let power = 10f64.powf(value.log10().floor());
     let rounded = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|v| value <= v * (1.0 + 1e-9));
     rounded.unwrap_or(f64::MAX).min(f64::MAX)
 }
 
-/// Digits after the point that a multiple of `step` needs.
+/// Number of decimals of multiples of `step`.
 pub(super) fn decimals_of(step: f64) -> usize {
     (0..15)
         .find(|d| {
@@ -145,12 +148,13 @@ pub(super) fn decimals_of(step: f64) -> usize {
         .unwrap_or(15) as usize
 }
 
-/// `2000` up to there, then `5×10⁴`.
+/// Formats powers: `2000` for small numbers, `5×10⁴` for large ones.
 fn power_label(value: f64) -> String {
     if value < 9999.0 { format!("{value:.0}") } else { exponent_label(value, 0) }
 }
 
-/// Mantissa with `digits` decimals times a power of ten in superscripts; a mantissa of 1 is not written.
+/// Formats a number as a mantissa with `digits` decimals times a power of ten in superscripts; a
+/// mantissa of 1 is omitted.
 pub(super) fn exponent_label(value: f64, digits: usize) -> String {
     let written = format!("{value:.digits$e}");
     let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
@@ -162,7 +166,7 @@ pub(super) fn exponent_label(value: f64, digits: usize) -> String {
     }
 }
 
-/// `2.50e-26` as it is printed: `2.50×10⁻²⁶`; anything but a number with an exponent unchanged.
+/// Converts `2.50e-26` to `2.50×10⁻²⁶`; anything but a number with an exponent is unchanged.
 pub fn power_of_ten(number: &str) -> String {
     match number.split_once('e') {
         Some((mantissa, exponent)) if mantissa.parse::<f64>().is_ok() && exponent.parse::<i32>().is_ok() => {

@@ -4,10 +4,10 @@ use super::palette::encode_indexed;
 use super::raster::{blank_sheet, encode_png};
 use super::{FigureError, style};
 
-/// Finished pictures on one sheet, row after row, each in the middle of its column.
+/// Composes finished pictures on one sheet, row by row, each centred in its column.
 ///
 /// # Errors
-/// No pictures; a picture that is no PNG of 8-bit RGB, as figures are; a sheet too large.
+/// No pictures; a picture that is not a PNG file of 8-bit RGB pixels; a sheet that is too large.
 pub fn compose(pictures: &[Vec<u8>], columns: usize) -> Result<Vec<u8>, FigureError> {
     let panels: Vec<Panel> = pictures.iter().map(|png| Panel::decode(png)).collect::<Result<_, _>>()?;
     let Some(first) = panels.first() else { return Err(FigureError::NoPanels) };
@@ -29,10 +29,10 @@ pub fn compose(pictures: &[Vec<u8>], columns: usize) -> Result<Vec<u8>, FigureEr
     encode_png(&sheet, first.zoom)
 }
 
-/// A copy for a screen: at most `width` pixels wide, in 256 colours.
+/// Makes a copy for screens: at most `width` pixels wide, in 256 colours.
 ///
 /// # Errors
-/// As [`compose`].
+/// As for [`compose`].
 pub fn small_copy(png: &[u8], width: u32) -> Result<Vec<u8>, FigureError> {
     let Panel { pixels, .. } = Panel::decode(png)?;
     let factor = f64::from(pixels.width()) / f64::from(width.max(1));
@@ -58,7 +58,7 @@ pub fn small_copy(png: &[u8], width: u32) -> Result<Vec<u8>, FigureError> {
     encode_indexed(&small)
 }
 
-/// For each of `to` cells the cells of `from` that it covers, with their shares of it.
+/// Returns for each of `to` cells the cells of `from` that it covers, with their shares.
 fn shares(from: u32, to: u32) -> Vec<Vec<(usize, f64)>> {
     let width = f64::from(from) / f64::from(to);
     let of_cell = |cell: u32| {

@@ -3,7 +3,8 @@ use std::sync::OnceLock;
 use tiny_skia::PathBuilder;
 use ttf_parser::{Face, OutlineBuilder};
 
-/// Inter Regular, reduced to Latin, Greek, superscripts and mathematical signs; SIL Open Font License, see font/OFL.txt.
+/// Inter Regular, reduced to Latin, Greek, superscripts and mathematical signs; SIL Open Font
+/// License, see font/OFL.txt.
 static INTER: &[u8] = include_bytes!("font/Inter-Regular-subset.otf");
 
 /// Height of capitals and digits in units of the text size.
@@ -15,20 +16,21 @@ fn inter() -> Option<&'static Face<'static>> {
     FACE.get_or_init(|| Face::parse(INTER, 0).ok()).as_ref()
 }
 
-/// Width of `text` set at `size`, in pixels.
+/// The width of `text` at `size`, in pixels.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     let Some(face) = inter() else { return 0.6 * size * text.chars().count() as f64 };
     let advance: f64 = text.chars().map(|c| f64::from(advance(face, c))).sum();
     advance * size / f64::from(face.units_per_em())
 }
 
-/// Outlines of `text` at `size` with its baseline along +x from the origin, y downward.
+/// Appends the outlines of `text` at `size`, with its baseline along +x from the origin, y
+/// downward.
 pub(super) fn outlines(text: &str, size: f64, path: &mut PathBuilder) {
     let Some(face) = inter() else { return };
     let scale = size as f32 / f32::from(face.units_per_em());
     let mut pen = Pen { path, scale, x: 0.0 };
     for c in text.chars() {
-        // Glyph 0 is the box that stands for missing characters.
+        // Glyph 0 is the box for missing characters.
         let glyph = face.glyph_index(c).unwrap_or_default();
         face.outline_glyph(glyph, &mut pen);
         pen.x += f32::from(advance(face, c)) * scale;
@@ -77,7 +79,8 @@ impl OutlineBuilder for Pen<'_> {
     }
 }
 
-/// `text` on at most `lines` lines of at most `limit` pixels, broken between words; what does not fit is cut with `…`.
+/// Wraps `text` to at most `lines` lines of at most `limit` pixels; text that does not fit ends in
+/// `…`.
 pub(super) fn wrap(text: &str, size: f64, limit: f64, lines: usize) -> Vec<String> {
     let mut wrapped: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -112,7 +115,7 @@ mod tests {
         let face = inter().expect("the embedded font is read");
         for c in "Quasi-conformal error σ₁/σ₂ ρ τ π |∂z̄| ×10⁻⁰¹²³⁴⁵⁶⁷⁸⁹ −>≥≤≈∞·…²".chars()
         {
-            // Combining marks are not among them.
+            // Combining marks are not part of the subset.
             assert!(c == '\u{304}' || face.glyph_index(c).is_some(), "{c}");
         }
     }

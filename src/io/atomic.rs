@@ -6,16 +6,16 @@ use tempfile::{Builder, TempPath};
 
 use super::WriteError;
 
-/// Writes a file so that it is either complete or not there: [`stage`] and [`Staged::publish`].
+/// Writes a file atomically: it is either complete or does not exist ([`stage`], then
+/// [`Staged::publish`]).
 ///
 /// # Errors
-///
-/// [`WriteError::Io`] when the system refuses or `write` fails; nothing is left behind then.
+/// [`WriteError::Io`] if the system refuses or `write` fails; no partial file remains.
 pub fn atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     stage(path, write)?.publish()
 }
 
-/// A file written in full and not yet in its place. Dropped, it leaves nothing behind.
+/// A file that is completely written but not yet in its final place. Dropping it removes it.
 pub struct Staged {
     path: PathBuf,
     content: Content,
@@ -26,26 +26,25 @@ enum Content {
     Device(Vec<u8>),
 }
 
-/// Writes a file into a temporary one in the same folder. Of several outputs all are staged before the first is
-/// published, so that a failure leaves none.
+/// Writes a file to a temporary file in the same folder.
 ///
-/// An existing file is replaced only by [`Staged::publish`], and keeps its permissions; a link to it stays a link. What
-/// goes to a device or pipe (`/dev/stdout`) is kept in memory until then.
+/// A program with several outputs stages all of them before it publishes the first, so that a
+/// failure leaves none. An existing file is replaced only by [`Staged::publish`]; it keeps its
+/// permissions, and a link to it stays a link. Output to a device or pipe (`/dev/stdout`) is kept
+/// in memory until then.
 ///
 /// # Errors
-///
-/// [`WriteError::Io`] when the system refuses or `write` fails.
+/// [`WriteError::Io`] if the system refuses or `write` fails.
 pub fn stage(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Staged, WriteError> {
     let content = content(path, write).map_err(|source| WriteError::Io { path: path.to_owned(), source })?;
     Ok(Staged { path: path.to_owned(), content })
 }
 
 impl Staged {
-    /// Puts the file in its place.
+    /// Moves the file to its final place.
     ///
     /// # Errors
-    ///
-    /// [`WriteError::Io`] when the system refuses.
+    /// [`WriteError::Io`] if the system refuses.
     pub fn publish(self) -> Result<(), WriteError> {
         let published = match self.content {
             Content::File { temporary, target } => temporary.persist(target).map_err(|e| e.error),
@@ -65,7 +64,7 @@ fn content(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
         return Ok(Content::Device(bytes));
     }
     let target = if existing.is_some() { fs::canonicalize(path)? } else { path.to_owned() };
-    // Without the name of the temporary file, which means nothing to the user.
+    // The error is given without the name of the temporary file, which means nothing to the user.
     let temporary = builder().tempfile_in(folder_of(&target)).map_err(|e| io::Error::from(e.kind()))?;
     let (file, temporary) = temporary.into_parts();
     let file = buffered(file, write)?;
@@ -75,22 +74,22 @@ fn content(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     Ok(Content::File { temporary, target })
 }
 
-/// Whether a file can be written under this name, as far as can be told without writing.
+/// Checks, as far as possible without writing, whether a file can be written under this name.
 ///
 /// # Errors
-///
-/// [`WriteError::Io`] for a folder, a file that is read-only, or a folder that does not exist.
+/// [`WriteError::Io`] for a folder, a read-only file, or a file in a folder that does not exist.
 pub fn can_be_written(path: &Path) -> Result<(), WriteError> {
     existing(path).map(drop).map_err(|source| WriteError::Io { path: path.to_owned(), source })
 }
 
-/// What is there under the name of an output.
+/// Returns the metadata of an existing output file; `None` if it does not exist but its folder
+/// does.
 fn existing(path: &Path) -> io::Result<Option<fs::Metadata>> {
     match fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
         Ok(metadata) if metadata.permissions().readonly() => Err(io::ErrorKind::PermissionDenied.into()),
         Ok(metadata) => Ok(Some(metadata)),
-        // The system's own words where the folder is missing.
+        // If the folder is missing, the system's own message says so.
         Err(e) if e.kind() == io::ErrorKind::NotFound => fs::metadata(folder_of(path)).map(|_| None),
         Err(e) => Err(e),
     }
@@ -109,7 +108,7 @@ fn folder_of(path: &Path) -> PathBuf {
     }
 }
 
-/// Temporary files as any new file is made: readable by others if the umask lets them.
+/// Makes temporary files with the usual permissions of a new file, subject to the umask.
 #[cfg(unix)]
 fn builder() -> Builder<'static, 'static> {
     use std::os::unix::fs::PermissionsExt;

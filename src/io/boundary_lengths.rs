@@ -4,38 +4,40 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-/// What numbers given for boundary edges are.
+/// The meaning of the numbers given for boundary edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LengthUnit {
     /// Lengths in the plane.
     #[default]
     Lengths,
-    /// What the edges' lengths on the surface are multiplied by.
+    /// Factors by which the edges' lengths on the surface are multiplied.
     Factors,
 }
 
-/// Which edge each number is for.
+/// The assignment of numbers to boundary edges.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PerEdge {
-    /// One an edge, along the boundary from its first vertex.
+    /// One number per edge, along the boundary from its first vertex.
     InOrder(Vec<f64>),
-    /// Edges by their ends, vertices of the source, and their numbers.
+    /// Pairs of end vertices, as indices of the source, with their numbers.
     ByEnds(Vec<([u32; 2], f64)>),
 }
 
-/// Lengths that the boundary edges of a free map are to have. In an experiment the name of a file, a list of lengths, or
-/// `{ lengths = […] }`, `{ factors = […] }`.
+/// Prescribed lengths of the boundary edges of a free map.
+///
+/// An experiment gives them as the name of a file, a list of lengths, or `{ lengths = […] }`, `{
+/// factors = […] }`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Written")]
 pub struct BoundaryLengths {
-    /// What the numbers are.
+    /// The meaning of the numbers.
     pub unit: LengthUnit,
-    /// The numbers, positive.
+    /// The numbers, all positive.
     pub values: PerEdge,
 }
 
-/// How an experiment gives them.
+/// The forms allowed in an experiment.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "expected the name of a file, a list of numbers, { lengths = […] } or { factors = […] }")]
 enum Written {
@@ -61,18 +63,18 @@ impl TryFrom<Written> for BoundaryLengths {
     }
 }
 
-/// Why boundary lengths could not be read.
+/// Boundary lengths could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum BoundaryLengthsError {
-    /// The system refused.
+    /// The operating system refused to read the file.
     #[error("cannot read {}: {source}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
-    /// A line of no form that is known.
+    /// A line has an unknown form.
     #[error(
         "{}, line {line}: expected one positive number, or `v w number` with the ends of a boundary edge (vertices from 0), \
          the same on all lines (the first may be `lengths` or `factors`); found `{text}`",
@@ -81,40 +83,43 @@ pub enum BoundaryLengthsError {
     Line {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// Its beginning.
+        /// Beginning of the line.
         text: String,
     },
-    /// An edge that an earlier line has.
-    #[error("{}, line {line}: edge {} {} was in line {earlier} already", path.display(), ends[0], ends[1])]
+    /// An edge occurs in two lines.
+    #[error("{}, line {line}: edge {} {} is already given in line {earlier}", path.display(), ends[0], ends[1])]
     Twice {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// The edge's ends.
+        /// End vertices of the edge.
         ends: [u32; 2],
-        /// The earlier line.
+        /// Number of the earlier line.
         earlier: usize,
     },
-    /// A number in an experiment that is no length.
+    /// A number in an experiment is not a positive finite number.
     #[error("boundary length {edge} (from 0) is {value}: lengths and factors are positive")]
     Value {
-        /// Its place in the list.
+        /// Its index in the list.
         edge: usize,
         /// The number.
         value: f64,
     },
 }
 
-/// Reads lengths of boundary edges. Each line has one number, in the order of the boundary; or all lines are `v w number`, in
-/// any order, v and w the ends of an edge as the file of the surface numbers them, from 0. A first line `lengths`, or
-/// `factors` of the lengths on the surface, says what the numbers are (lengths, without it). Blank lines and what
-/// follows a `#` are passed over.
+/// Reads the lengths of boundary edges from a text file.
+///
+/// Either each line has one number, in the order of the boundary, or all lines are `v w number` in
+/// any order, where v and w are the ends of an edge as indices of the source, from 0. An optional
+/// first line `lengths` (the default) or `factors` gives the meaning of the numbers. Blank lines
+/// and comments from `#` to the end of the line are ignored.
 ///
 /// # Errors
-/// A file that cannot be read, a line of another form, a number that is not positive, an edge given twice.
+/// A file that cannot be read, a malformed line, a number that is not positive, an edge given
+/// twice.
 pub fn read_boundary_lengths(path: &Path) -> Result<BoundaryLengths, BoundaryLengthsError> {
     let bytes = fs::read(path).map_err(|source| BoundaryLengthsError::Io { path: path.to_owned(), source })?;
     let text = String::from_utf8_lossy(&bytes);
@@ -149,7 +154,7 @@ pub fn read_boundary_lengths(path: &Path) -> Result<BoundaryLengths, BoundaryLen
     Ok(BoundaryLengths { unit: unit.unwrap_or_default(), values })
 }
 
-/// A number, and before it the ends of an edge or nothing.
+/// Parses a number, optionally preceded by the ends of an edge.
 fn parse(content: &str) -> Option<(Option<[u32; 2]>, f64)> {
     let words: Vec<&str> = content.split_whitespace().collect();
     let (ends, value) = match words.as_slice() {

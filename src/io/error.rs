@@ -6,46 +6,46 @@ use thiserror::Error;
 
 use super::Format;
 
-/// Why a mesh file could not be read.
+/// A mesh file could not be read.
 #[derive(Debug, Error)]
 pub enum ReadError {
-    /// The operating system refused: no such file, no permission, …
+    /// The operating system refused: no such file, no permission, ….
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
-    /// A folder was named.
+    /// The path is a folder.
     #[error("{} is a directory; name a mesh file in it ({})", path.display(), Format::known())]
     Directory {
-        /// The path asked for.
+        /// The requested path.
         path: PathBuf,
     },
-    /// The extension is that of no known format.
+    /// The extension does not belong to a known format.
     #[error("{}: unknown mesh format; known extensions: {}", path.display(), Format::known())]
     UnknownFormat {
-        /// The path asked for.
+        /// The requested path.
         path: PathBuf,
     },
-    /// The content is not a mesh in the format its extension states.
+    /// The content is not a mesh in the format of its extension.
     #[error("{}, {source}", path.display())]
     Parse {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// Where it is wrong and how.
+        /// The defect and its place.
         source: ParseError,
     },
 }
 
-/// What is wrong in the content of a mesh or volume file, and where.
+/// A defect in the content of a mesh or volume file, with its place.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{place}: {defect}")]
 pub struct ParseError {
     /// Line or byte.
     pub place: Place,
-    /// What was found there.
+    /// The defect.
     pub defect: Defect,
 }
 
@@ -70,184 +70,184 @@ impl fmt::Display for Place {
     }
 }
 
-/// What can be wrong with a mesh or volume file.
+/// The defects of a mesh or volume file.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Defect {
-    /// Nothing but blanks and comments.
+    /// The file contains nothing but blanks and comments.
     #[error("the file is empty")]
     Empty,
     /// The first words are not those of the format.
     #[error("`{found}` where {wanted} was expected")]
     Unexpected {
-        /// What stands there.
+        /// The text that was found.
         found: String,
-        /// What should.
+        /// The expected text.
         wanted: &'static str,
     },
-    /// The format allows it, this program does not read it.
+    /// The feature belongs to the format but is not supported.
     #[error("{what} cannot be read; {advice}")]
     Unsupported {
-        /// The feature.
+        /// The unsupported feature.
         what: &'static str,
-        /// What the user can do.
+        /// Advice to the user.
         advice: &'static str,
     },
     /// A number was expected.
     #[error("`{token}` is not a number ({wanted} was expected)")]
     NotANumber {
-        /// What stands there.
+        /// The text that was found.
         token: String,
-        /// What the number should have said.
+        /// The meaning of the expected number.
         wanted: &'static str,
     },
-    /// NaN, an infinity, or a number beyond the range of doubles.
+    /// A coordinate is NaN, infinite, or beyond the range of double precision.
     #[error("the coordinate `{token}` is not a finite number")]
     NotFinite {
-        /// What stands there.
+        /// The text that was found.
         token: String,
     },
     /// A vertex or normal has fewer than three coordinates.
     #[error("only {found} of 3 coordinates")]
     MissingCoordinates {
-        /// How many there are.
+        /// Number of coordinates found.
         found: usize,
     },
-    /// OBJ counts from 1: there is no index 0.
+    /// An index is 0 in OBJ, where indices count from 1.
     #[error("the index 0 in `{token}`: this format counts from 1")]
     IndexZero {
-        /// The corner it stands in.
+        /// The corner with this index.
         token: String,
     },
-    /// A vertex or normal that the file does not have.
+    /// An index refers to a vertex or normal that the file does not have.
     #[error("{what} {index} does not exist: the file has {count} (counted from {base})")]
     IndexOutOfRange {
         /// `vertex` or `normal`.
         what: &'static str,
-        /// The index as the file has it.
+        /// The index as it is written in the file.
         index: i64,
-        /// How many of these were read (OBJ with a negative index: up to this line).
+        /// Number of vertices or normals in the file (for negative OBJ indices: up to this line).
         count: usize,
-        /// What the format counts from: 0 or 1.
+        /// The base of indices in this format: 0 or 1.
         base: usize,
     },
-    /// A point or a segment among the faces.
+    /// A face has fewer than three corners.
     #[error("a face with {corners} corners; faces have 3 or more")]
     TooFewCorners {
-        /// How many corners it has.
+        /// Number of corners.
         corners: usize,
     },
     /// The file ends early.
     #[error("the file ends too early: {wanted} was expected ({done} of {expected} {what} read)")]
     UnexpectedEnd {
-        /// What should have come next.
+        /// The expected next item.
         wanted: &'static str,
         /// `vertices`, `faces`, `header lines`, …
         what: &'static str,
-        /// How many of them are complete.
+        /// Number of complete items.
         done: u64,
-        /// How many the header promises.
+        /// Number of items that the header declares.
         expected: u64,
     },
-    /// The same in a format that does not count beforehand.
+    /// The file ends early, in a format that does not declare counts.
     #[error("the file ends too early: {wanted} was expected ({done} {what} read)")]
     OpenEnd {
-        /// What should have come next.
+        /// The expected next item.
         wanted: &'static str,
         /// `facets`, …
         what: &'static str,
-        /// How many of them are complete.
+        /// Number of complete items.
         done: u64,
     },
-    /// More elements than the file has bytes for.
+    /// The header declares more elements than the file has bytes for.
     #[error("the header promises {count} {what} of at least {bytes_each} bytes, but only {left} bytes follow")]
     Truncated {
         /// `vertices`, `faces`, …
         what: String,
-        /// The promised number.
+        /// The declared number.
         count: u64,
-        /// Smallest size of one.
+        /// Smallest size of an element.
         bytes_each: u64,
-        /// What is left of the file.
+        /// Number of bytes left in the file.
         left: u64,
     },
-    /// The file goes on after its last element.
+    /// A text file continues after its last element.
     #[error("`{token}` after the end of the data: the counts in the header are too small, or a line above is too long")]
     Trailing {
-        /// The first thing that is too much.
+        /// The first superfluous word.
         token: String,
     },
-    /// A binary file goes on after its last element.
+    /// A binary file continues after its last element.
     #[error("{bytes} bytes too many after the last element: the counts in the header do not fit the data")]
     TrailingBytes {
-        /// How many.
+        /// Number of superfluous bytes.
         bytes: u64,
     },
-    /// An ascii PLY record has more values than its element has properties.
+    /// A record of an ascii PLY file has more values than its element has properties.
     #[error("`{token}` is one value too many for an element `{element}`")]
     ExtraValue {
-        /// The first value that is too much.
+        /// The first superfluous value.
         token: String,
         /// The element.
         element: String,
     },
-    /// A PLY header lacks what a mesh needs.
+    /// The header lacks something that a mesh or volume needs.
     #[error("the header has no {what}")]
     HeaderLacks {
         /// The missing part.
         what: &'static str,
     },
-    /// A list of negative or fractional length, or an index that is no whole number.
+    /// A length or count is negative or fractional.
     #[error("{value} is not a {wanted}")]
     NotACount {
         /// The value in the file.
         value: f64,
-        /// What it should have been.
+        /// The expected kind of value.
         wanted: &'static str,
     },
-    /// 32-bit indices are used throughout.
+    /// There are more elements than 32-bit indices can number.
     #[error("{count} {what} are more than the {} this program can index", u32::MAX)]
     TooMany {
         /// `vertices` or `corners`.
         what: &'static str,
-        /// How many there are.
+        /// Number of elements.
         count: u64,
     },
-    /// A volume of too many voxels.
+    /// A volume has too many voxels.
     #[error("{} × {} × {} voxels are more than the {most} this program can hold", size[0], size[1], size[2])]
     TooLarge {
-        /// Voxels along x, y, z.
+        /// Number of voxels along x, y, z.
         size: [usize; 3],
-        /// Most voxels, rows being filled up to whole words.
+        /// Largest number of voxels, rows being padded to whole words.
         most: u64,
     },
-    /// A raw file of another length than its size says.
+    /// The length of a raw file does not match its size.
     #[error(
         "{} × {} × {} values of {bytes_each} byte(s) do not make the {found} bytes of the file",
         size[0], size[1], size[2]
     )]
     Length {
-        /// Values along x, y, z.
+        /// Number of values along x, y, z.
         size: [usize; 3],
-        /// Bytes of a value.
+        /// Number of bytes of a value.
         bytes_each: u64,
-        /// Length of the file.
+        /// Length of the file in bytes.
         found: u64,
     },
-    /// Data that zlib does not understand.
+    /// Compressed data cannot be decoded.
     #[error("the compressed data is damaged or ends too early: {reason}")]
     Compressed {
-        /// What the decoder said.
+        /// The decoder's message.
         reason: String,
     },
-    /// Points or lines without a surface.
+    /// The file has points or lines but no faces.
     #[error("no faces ({vertices} vertices): a surface is needed, not a point cloud or a curve")]
     NoFaces {
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
 }
 
-/// A defect at a byte offset; [`Place`] is worked out from it once, when the reader has given up.
+/// A defect at a byte offset. Its [`Place`] is computed only once, when the reader has failed.
 #[derive(Debug)]
 pub(super) struct Fault {
     pub at: At,
@@ -286,14 +286,14 @@ impl Fault {
     }
 }
 
-/// 1-based line of a byte offset; lines end with `\n`, `\r\n` or `\r`.
+/// Returns the line, from 1, of a byte offset; lines end with `\n`, `\r\n` or `\r`.
 fn line_of(bytes: &[u8], offset: usize) -> usize {
     let before = &bytes[..offset.min(bytes.len())];
     let ends = |(i, &b): (usize, &u8)| b == b'\n' || (b == b'\r' && bytes.get(i + 1) != Some(&b'\n'));
     1 + before.iter().enumerate().filter(|&x| ends(x)).count()
 }
 
-/// A token for a message: printable and short.
+/// Formats a token for a message: printable and short.
 pub(super) fn quote(token: &[u8]) -> String {
     const LONGEST: usize = 40;
     let text = String::from_utf8_lossy(&token[..token.len().min(4 * LONGEST)]);

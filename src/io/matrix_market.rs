@@ -3,11 +3,13 @@ use std::io::{self, Write};
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex64;
 
-/// Writes a complex matrix in Matrix Market coordinate format, entries column by column, with 17 significant digits, and
-/// `comments` in its head, a line each.
+/// Writes a complex matrix in Matrix Market coordinate format, with `comments` in its header, one
+/// per line.
+///
+/// Entries are in column-major order with 17 significant digits.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_matrix_market(out: &mut dyn Write, matrix: &CscMatrix<Complex64>, comments: &[String]) -> io::Result<()> {
     writeln!(out, "%%MatrixMarket matrix coordinate complex general")?;
     for comment in comments {

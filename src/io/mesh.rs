@@ -1,10 +1,11 @@
 use super::error::Defect;
 use crate::surface::{Faces, Surface};
 
-/// The OBJ `v` line of every vertex with the digits its file had, so that a map can be written back without touching them.
+/// The OBJ `v` line of every vertex with the digits of its file, so that they are written back
+/// unchanged.
 ///
-/// From OBJ: the line itself, from the `v` to the line end, colours and comment included. From OFF and ascii PLY: `v` and
-/// the three coordinates.
+/// From OBJ it is the line itself, from the `v` to the line end, with colours and comment. From OFF
+/// and ascii PLY it is `v` and the three coordinates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VertexText {
     bytes: Vec<u8>,
@@ -45,7 +46,7 @@ impl VertexText {
         self.ends.is_empty()
     }
 
-    /// The line of vertex `v`, without its line end; `None` when there is no such vertex.
+    /// The line of vertex `v`, without its line end; `None` if there is no such vertex.
     pub fn line(&self, v: usize) -> Option<&[u8]> {
         let end = *self.ends.get(v)?;
         let start = if v == 0 { 0 } else { self.ends[v - 1] };
@@ -53,11 +54,13 @@ impl VertexText {
     }
 }
 
-/// Face normals, or the first face that has none.
+/// Face normals, or the first face without a normal.
 pub(super) type Normals = Result<Vec<[f64; 3]>, usize>;
 
-/// Normalised mean of the normals at each face's corners. `at(f, c)` is the normal at corner `c` (a position in
-/// [`Faces::corners`]) of face `f`. The error is the first face where that is zero or not finite.
+/// Returns the normalised mean of the normals at each face's corners.
+///
+/// `at(c)` is the normal at corner `c` (a position in [`Faces::corners`]). The error is the first
+/// face whose mean is zero or not finite.
 pub(super) fn mean_normals(faces: &Faces, at: impl Fn(usize) -> [f64; 3]) -> Normals {
     let mean = |f: usize| {
         let mut sum = [0.0; 3];
@@ -70,9 +73,9 @@ pub(super) fn mean_normals(faces: &Faces, at: impl Fn(usize) -> [f64; 3]) -> Nor
     (0..faces.len()).map(mean).collect()
 }
 
-/// `n / |n|`, or `None` when that has no meaning.
+/// Returns `n / |n|`, or `None` if that is undefined.
 pub(super) fn unit(n: [f64; 3]) -> Option<[f64; 3]> {
-    // scaled first: a normal of length 1e-200 is one all the same
+    // Scaled first, because a normal of length 1e-200 is valid too.
     let scale = n.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     if !(scale > 0.0 && scale.is_finite() && n.iter().all(|x| x.is_finite())) {
         return None;
@@ -82,7 +85,7 @@ pub(super) fn unit(n: [f64; 3]) -> Option<[f64; 3]> {
     Some(n.map(|x| x / length))
 }
 
-/// Appends a polygon after checking what [`Surface`] promises of polygons.
+/// Appends a polygon after checking the properties that [`Surface`] guarantees.
 #[inline]
 pub(super) fn push_face(faces: &mut Faces, polygon: &[u32]) -> Result<(), Defect> {
     if polygon.len() < 3 {
@@ -96,7 +99,7 @@ pub(super) fn push_face(faces: &mut Faces, polygon: &[u32]) -> Result<(), Defect
     Ok(())
 }
 
-/// What every reader hands back.
+/// The result of every reader.
 pub(super) struct Parsed {
     pub positions: Vec<[f64; 3]>,
     pub faces: Faces,

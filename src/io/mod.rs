@@ -1,7 +1,9 @@
-//! Mesh files: OBJ, OFF, PLY and STL in, OBJ, PLY and binary glTF with texture coordinates out. Volumes: DGtal, PGM3D, NumPy, raw.
+//! Mesh and volume files.
 //!
-//! Readers take the whole file as bytes and check every number and index; what they accept fulfils what
-//! [`Surface`] promises, and nothing is repaired. Errors name the line (or the byte) and what stands there.
+//! Reads OBJ, OFF, PLY and STL; writes OBJ, PLY and binary glTF with texture coordinates. Volumes:
+//! DGtal, PGM3D, NumPy, raw. Readers take the whole file as bytes and check every number and index,
+//! so that the result has the properties that [`Surface`] guarantees; nothing is repaired. Errors
+//! name the line (or byte) and the text that was found.
 
 mod atomic;
 mod boundary_lengths;
@@ -35,17 +37,17 @@ pub use write::{Uv, WriteError, is_glb, stage_glb, stage_mesh, writable, write};
 use error::Fault;
 use mesh::Parsed;
 
-/// What a mesh file said.
+/// The content of a mesh file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshFile {
-    /// Positions, polygons, and face normals where every face has them.
+    /// Positions, polygons, and face normals if every face has one.
     pub surface: Surface,
-    /// The vertices with the digits of the file: OBJ, text OFF and ascii PLY.
+    /// The vertices with the digits of the file (OBJ, text OFF and ascii PLY).
     pub vertex_text: Option<VertexText>,
-    /// When the file has normals but `surface.face_normals` is `None`: the first face (0-based) that has a corner without
-    /// normal, or whose normals cancel or are not finite.
+    /// If the file has normals but `surface.face_normals` is `None`: the first face (from 0) that
+    /// has a corner without normal, or whose normals cancel or are not finite.
     pub face_without_normal: Option<usize>,
-    /// The format it was read as.
+    /// The format of the file.
     pub format: Format,
 }
 
@@ -66,7 +68,7 @@ impl Format {
     /// Every format.
     pub const ALL: [Format; 4] = [Format::Obj, Format::Off, Format::Ply, Format::Stl];
 
-    /// The file name extension, in small letters.
+    /// The file name extension in lower case.
     pub fn extension(self) -> &'static str {
         match self {
             Format::Obj => "obj",
@@ -76,13 +78,13 @@ impl Format {
         }
     }
 
-    /// The format that a path's extension names, in capitals or not.
+    /// Returns the format of a path's extension, in upper or lower case.
     pub fn of(path: &Path) -> Option<Format> {
         let extension = path.extension()?;
         Format::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
-    /// All extensions, for messages: `.obj, .off, …`.
+    /// Lists all extensions for messages: `.obj, .off, …`.
     pub fn known() -> String {
         Format::ALL.map(|format| format!(".{}", format.extension())).join(", ")
     }
@@ -97,11 +99,11 @@ impl Format {
     }
 }
 
-/// Reads a mesh; the extension tells the format.
+/// Reads a mesh; the extension determines the format.
 ///
 /// # Errors
-///
-/// [`ReadError`] when the path is no readable file, the extension is unknown, or the content is not a mesh in its format.
+/// [`ReadError`] if the path is not a readable file, the extension is unknown, or the content is
+/// not a mesh in its format.
 pub fn read(path: &Path) -> Result<MeshFile, ReadError> {
     let owned = || path.to_owned();
     let io = |source| ReadError::Io { path: owned(), source };
@@ -116,8 +118,7 @@ pub fn read(path: &Path) -> Result<MeshFile, ReadError> {
 /// Reads a mesh from the content of a file.
 ///
 /// # Errors
-///
-/// [`ParseError`] with the line or byte where the content is not a mesh in this format.
+/// [`ParseError`] with the line or byte at which the content is not a mesh in this format.
 pub fn parse(bytes: &[u8], format: Format) -> Result<MeshFile, ParseError> {
     let parsed = (format.reader())(bytes).map_err(|fault| fault.locate(bytes))?;
     if parsed.faces.is_empty() {

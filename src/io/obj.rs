@@ -3,7 +3,8 @@ use super::mesh::{Parsed, VertexText, mean_normals, push_face};
 use super::token::{Syntax, Tokens, coordinate, integer, number};
 use crate::surface::Faces;
 
-/// Wavefront OBJ: `v`, `vn` and `f`; every other record is ignored. Weights `w` are ignored as everywhere for polygons.
+/// Reads Wavefront OBJ: the records `v`, `vn` and `f`. Other records are ignored, and so are the
+/// weights `w`, which have no meaning for polygons.
 pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
     let mut tokens = Tokens::new(bytes, Syntax::CommentsAndContinuation);
     let mut reader = Reader::default();
@@ -24,9 +25,10 @@ struct Reader {
     text: VertexText,
     faces: Faces,
     normals: Vec<[f64; 3]>,
-    /// The normal of every corner so far; `Err` from the first face on that has a corner without.
+    /// The normal of every corner so far, or the first face that has a corner without normal.
     corner_normals: Result<Vec<u32>, usize>,
-    /// Largest vertex and normal indices (from 0) used: they may be defined later in the file.
+    /// Largest vertex and normal indices (from 0) used so far: their definitions can follow later
+    /// in the file.
     largest: [Option<u32>; 2],
     polygon: Vec<u32>,
     words: Vec<(usize, usize)>,
@@ -100,7 +102,7 @@ impl Reader {
         push_face(&mut self.faces, &self.polygon).map_err(|e| Fault::text(start, e))
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+    /// Reads a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     #[inline]
     fn corner(&mut self, token: &[u8]) -> Result<(), Defect> {
         let mut parts = token.splitn(3, |&b| b == b'/');
@@ -124,7 +126,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Index from 0 of vertex (`kind` 0) or normal (`kind` 1).
+    /// Returns the index from 0 of a vertex (`kind` 0) or normal (`kind` 1).
     #[inline]
     fn index(&mut self, kind: usize, part: &[u8], token: &[u8]) -> Result<u32, Defect> {
         let count = if kind == 0 { self.positions.len() } else { self.normals.len() };
@@ -163,7 +165,7 @@ fn not_an_index(token: &[u8]) -> Defect {
     Defect::NotANumber { token: quote(token), wanted: "a corner such as 7, 7/3, 7//5 or 7/3/5" }
 }
 
-/// The first index beyond `count`, found by a second pass that only a broken file needs.
+/// Finds the first index beyond `count`, in a second pass that is needed only for defective files.
 fn locate_out_of_range(bytes: &[u8], kind: usize, count: usize) -> Fault {
     let mut tokens = Tokens::new(bytes, Syntax::CommentsAndContinuation);
     while tokens.position() < bytes.len() {

@@ -1,48 +1,49 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Vertices with places in the plane, as a text file lists them.
+/// Vertices with their positions in the plane, as listed in a text file.
 pub type Places = Vec<(u32, [f64; 2])>;
 
-/// Why a file of positions could not be read.
+/// A file of positions could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum PositionsError {
-    /// The system refused.
+    /// The operating system refused to read the file.
     #[error("cannot read {}: {source}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
-    /// A line that is not `vertex x y`.
+    /// A line is not of the form `vertex x y`.
     #[error("{}, line {line}: expected `vertex x y` (a vertex index from 0 and two finite numbers), found `{text}`", path.display())]
     Line {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// Its beginning.
+        /// Beginning of the line.
         text: String,
     },
-    /// A vertex that an earlier line has already placed.
+    /// A vertex occurs in two lines.
     #[error("{}, line {line}: vertex {vertex} was placed in line {earlier} already", path.display())]
     Twice {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: usize,
         /// The vertex.
         vertex: u32,
-        /// The earlier line.
+        /// Number of the earlier line.
         earlier: usize,
     },
 }
 
-/// Reads lines `vertex x y`, vertices counted from 0; blank lines and what follows a `#` are passed over.
+/// Reads lines `vertex x y`, with vertices counted from 0; blank lines and comments from `#` to the
+/// end of the line are ignored.
 ///
 /// # Errors
-/// A file that cannot be read, a line of another form, a vertex given twice.
+/// A file that cannot be read, a malformed line, a vertex given twice.
 pub fn read_positions(path: &Path) -> Result<Places, PositionsError> {
     let bytes = fs::read(path).map_err(|source| PositionsError::Io { path: path.to_owned(), source })?;
     let mut places = Places::new();

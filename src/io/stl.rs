@@ -5,14 +5,14 @@ use super::mesh::{Parsed, push_face, unit};
 use super::token::{Syntax, Tokens, coordinate, number};
 use crate::surface::Faces;
 
-/// Length of the header and the count, and of one facet, of binary STL.
+/// Lengths of the header with the count, and of one facet, in binary STL.
 const PREFACE: usize = 84;
 const FACET: usize = 50;
 
-/// STL, text or binary; corners at the same place become one vertex.
+/// Reads STL, text or binary; corners at the same position become one vertex.
 ///
-/// A file whose length is that of the facets it counts is binary, whatever it begins with (binary files that begin with
-/// `solid` exist); otherwise it is text if it begins with `solid` and its first bytes are text.
+/// A file whose length matches its facet count is binary, even if it begins with `solid` (such
+/// files exist). Otherwise it is text if it begins with `solid` and its first bytes are text.
 pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
     let count = bytes.get(80..PREFACE).and_then(|b| b.first_chunk::<4>()).map(|b| u64::from(u32::from_le_bytes(*b)));
     if count.is_some_and(|n| n * FACET as u64 + PREFACE as u64 == bytes.len() as u64) {
@@ -54,7 +54,7 @@ impl Welder {
     fn facet(&mut self, normal: [f64; 3], corners: [[f64; 3]; 3]) -> Result<(), Defect> {
         let mut polygon = [0; 3];
         for (p, corner) in polygon.iter_mut().zip(corners) {
-            // adding zero turns −0 into +0
+            // Adding zero turns −0 into +0.
             let corner = corner.map(|x| x + 0.0);
             let next = u32::try_from(self.positions.len())
                 .map_err(|_| Defect::TooMany { what: "vertices", count: self.positions.len() as u64 })?;
@@ -92,7 +92,7 @@ fn binary(facets: &[u8]) -> Result<Parsed, Fault> {
     Ok(welder.finish())
 }
 
-/// One or more `solid … endsolid`; `solid` has been read.
+/// Reads one or more `solid … endsolid`; the first `solid` has already been read.
 fn text(mut tokens: Tokens) -> Result<Parsed, Fault> {
     let mut welder = Welder::default();
     tokens.end_line();
@@ -149,7 +149,7 @@ fn keyword(tokens: &mut Tokens, keyword: &[u8], wanted: &'static str, done: usiz
     }
 }
 
-/// Text STL does not count its facets, so an early end is told by what is missing.
+/// Text STL has no facet count, so the error of an early end names the missing item.
 fn end(tokens: &Tokens, wanted: &'static str, done: usize) -> Fault {
     tokens.fault(Defect::OpenEnd { wanted, what: "facets", done: done as u64 })
 }

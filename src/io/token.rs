@@ -1,6 +1,7 @@
 use super::error::{Defect, Fault, quote};
 
-/// Words of a text file. Lines end with `\n`, `\r\n` or `\r`; blanks are those of ASCII. Bytes need not be UTF-8.
+/// The words of a text file. Lines end with `\n`, `\r\n` or `\r`; blanks are those of ASCII. Bytes
+/// need not be UTF-8.
 #[derive(Clone)]
 pub(super) struct Tokens<'a> {
     bytes: &'a [u8],
@@ -10,10 +11,10 @@ pub(super) struct Tokens<'a> {
     continued: bool,
 }
 
-/// What a text format has besides words and lines.
+/// The comment and continuation syntax of a text format.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Syntax {
-    /// Nothing.
+    /// Neither comments nor continuation lines.
     Plain,
     /// `#` begins a comment.
     Comments,
@@ -27,42 +28,42 @@ impl<'a> Tokens<'a> {
         Tokens { bytes, position, start: position, syntax, continued: false }
     }
 
-    /// Continues at a byte offset.
+    /// Starts at a byte offset.
     pub fn at(bytes: &'a [u8], position: usize, syntax: Syntax) -> Self {
         Tokens { bytes, position, start: position, syntax, continued: false }
     }
 
-    /// Byte offset behind the last word.
+    /// Byte offset of the end of the last word.
     pub fn position(&self) -> usize {
         self.position
     }
 
-    /// Number of bytes behind the last word.
+    /// Number of bytes after the last word.
     pub fn left(&self) -> usize {
         self.bytes.len() - self.position
     }
 
-    /// Makes the last `length` bytes of the last word the next one.
+    /// Returns the last `length` bytes of the last word to the stream, as the next word.
     pub fn step_back(&mut self, length: usize) {
         self.position = self.position.saturating_sub(length).max(self.start);
     }
 
-    /// Byte offset of the last word.
+    /// Byte offset of the beginning of the last word.
     pub fn start(&self) -> usize {
         self.start
     }
 
-    /// Whether the words since the last [`Tokens::end_line`] came from several lines joined by `\`.
+    /// Whether the words since the last [`Tokens::end_line`] come from several lines joined by `\`.
     pub fn continued(&self) -> bool {
         self.continued
     }
 
-    /// A fault at the last word.
+    /// Makes a fault at the last word.
     pub fn fault(&self, defect: Defect) -> Fault {
         Fault::text(self.start, defect)
     }
 
-    /// The next word, on this line or a later one; `None` at the end of the file.
+    /// Returns the next word, on this line or a later one; `None` at the end of the file.
     pub fn next(&mut self) -> Option<&'a [u8]> {
         loop {
             if let Some(token) = self.next_on_line() {
@@ -75,7 +76,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The next word of this line; `None` at its end or at a comment.
+    /// Returns the next word of this line; `None` at its end or at a comment.
     #[inline]
     pub fn next_on_line(&mut self) -> Option<&'a [u8]> {
         let bytes = self.bytes;
@@ -112,7 +113,7 @@ impl<'a> Tokens<'a> {
         Some(&bytes[self.start..i])
     }
 
-    /// Goes to the beginning of the next line.
+    /// Advances to the beginning of the next line.
     pub fn end_line(&mut self) {
         let bytes = self.bytes;
         self.continued = false;
@@ -128,19 +129,19 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// Byte offset where this line ends.
+    /// Byte offset of the end of this line.
     pub fn line_end(&self) -> usize {
         let rest = self.bytes.get(self.position..).unwrap_or_default();
         self.position + rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(rest.len())
     }
 
-    /// Whether nothing but blanks (and a comment) is left of this line.
+    /// Whether only blanks (and a comment) are left on this line.
     pub fn at_line_end(&self) -> bool {
         self.clone().next_on_line().is_none()
     }
 }
 
-/// Length of the line end at `i`: 2 for `\r\n`, 1 for `\n` and `\r`, 0 when there is none.
+/// Returns the length of the line end at `i`: 2 for `\r\n`, 1 for `\n` and `\r`, otherwise 0.
 pub(super) fn line_end_at(bytes: &[u8], i: usize) -> usize {
     match (bytes.get(i), bytes.get(i + 1)) {
         (Some(b'\r'), Some(b'\n')) => 2,
@@ -149,26 +150,26 @@ pub(super) fn line_end_at(bytes: &[u8], i: usize) -> usize {
     }
 }
 
-/// A number as text, possibly NaN or infinite.
+/// Parses a number, possibly NaN or infinite.
 pub(super) fn number(token: &[u8], wanted: &'static str) -> Result<f64, Defect> {
     let parsed = std::str::from_utf8(token).ok().and_then(|s| s.parse().ok());
     parsed.ok_or_else(|| Defect::NotANumber { token: quote(token), wanted })
 }
 
-/// A finite number as text.
+/// Parses a finite number.
 pub(super) fn coordinate(token: &[u8]) -> Result<f64, Defect> {
     let x = number(token, "a coordinate")?;
     if x.is_finite() { Ok(x) } else { Err(Defect::NotFinite { token: quote(token) }) }
 }
 
-/// A whole number as text, with an optional sign.
+/// Parses an integer with an optional sign.
 pub(super) fn integer(token: &[u8]) -> Option<i64> {
     let (negative, digits) = match token {
         [b'-', rest @ ..] => (true, rest),
         [b'+', rest @ ..] => (false, rest),
         _ => (false, token),
     };
-    // 18 digits cannot overflow; longer ones are no index of anything
+    // 18 digits cannot overflow; longer numbers cannot be indices.
     if digits.is_empty() || digits.len() > 18 {
         return None;
     }

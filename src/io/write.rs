@@ -7,12 +7,12 @@ use super::glb::{Affine, Glb, GlbError, Model};
 use super::{Staged, VertexText, can_be_written, stage};
 use crate::surface::Surface;
 
-/// Texture coordinates: the map.
+/// Texture coordinates, which are the map.
 #[derive(Clone, Copy, Debug)]
 pub enum Uv<'a> {
     /// One pair per vertex (`nv × 2`).
     PerVertex(&'a [[f64; 2]]),
-    /// Pairs shared by corners, for maps of surfaces that were cut.
+    /// Pairs referred to by corners, for surfaces that were cut.
     PerCorner {
         /// The pairs.
         coordinates: &'a [[f64; 2]],
@@ -21,86 +21,85 @@ pub enum Uv<'a> {
     },
 }
 
-/// Why a file could not be written. Nothing is left behind, and an existing file is as it was.
+/// A file could not be written. An existing file is unchanged and no partial file remains.
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The operating system refused.
     #[error("cannot write {}: {source}", path.display())]
     Io {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
-    /// The extension is that of no format that is written.
+    /// The extension does not belong to a format that can be written.
     #[error("cannot write {}: unknown mesh format; known extensions: .obj, .ply, .glb", path.display())]
     UnknownFormat {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
     },
     /// Texture coordinates or vertex text do not belong to this surface.
     #[error("cannot write {}: {found} {what} for {expected} of the surface", path.display())]
     Mismatch {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// `texture coordinates`, `corner indices`, `vertex lines`.
         what: &'static str,
-        /// How many were given.
+        /// The number that was given.
         found: usize,
-        /// How many there should be.
+        /// The number that is needed.
         expected: usize,
     },
-    /// A corner names a pair of coordinates that is not there.
+    /// A corner refers to a pair of coordinates that does not exist.
     #[error("cannot write {}: corner {corner} has the texture coordinate {index} of {count}", path.display())]
     CornerOutOfRange {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// Position in the flat list of corners.
         corner: usize,
-        /// The index it has.
+        /// The index of the corner's pair.
         index: u32,
         /// Number of texture coordinates.
         count: usize,
     },
-    /// NaN or an infinity.
+    /// A texture coordinate is NaN or infinite.
     #[error("cannot write {}: texture coordinate {index} (0-based) is ({}, {})", path.display(), value[0], value[1])]
     NotFinite {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// Index of the pair.
         index: usize,
         /// The pair.
         value: [f64; 2],
     },
-    /// What binary glTF has no place for.
+    /// The surface cannot be represented in binary glTF.
     #[error("cannot write {}: {source}", path.display())]
     Glb {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What it is.
+        /// The reason.
         source: GlbError,
     },
 }
 
-/// Writes a surface with its texture coordinates, if any: `.obj`, (binary little-endian) `.ply` or `.glb`, as the extension says.
+/// Writes a surface with its texture coordinates, if any. The extension determines the format:
+/// `.obj`, `.ply` (binary, little-endian) or `.glb`.
 ///
-/// Vertices and faces keep their order and number of corners. In OBJ the vertices are the lines of `text` when given; every
-/// other number is the shortest that reads back as the same double. PLY has doubles.
-///
-/// Binary glTF has triangles and single precision, see [`glb`](super::glb). The picture is left to the reader, and (u, v) become
-/// (u, 1 − v) as its axes have it; [`stage_glb`] writes it with a picture and normals.
+/// Vertices and faces keep their order and number of corners. The vertices in OBJ are the lines of
+/// `text` if given; all other numbers are the shortest text that reads back as the same double. PLY
+/// has doubles. Binary glTF has triangles and single precision, see [`glb`](super::glb); (u, v)
+/// becomes (u, 1 − v), as its axes require, and there is no picture. [`stage_glb`] writes it with a
+/// picture and normals.
 ///
 /// # Errors
-///
 /// [`WriteError`]; nothing is written then.
 pub fn write(path: &Path, surface: &Surface, text: Option<&VertexText>, uv: Option<Uv>) -> Result<(), WriteError> {
     stage_mesh(path, surface, text, uv)?.publish()
 }
 
-/// The same, not yet in its place.
+/// Does the same as [`write`] but stages the file, see [`stage`].
 ///
 /// # Errors
-///
 /// [`WriteError`].
 pub fn stage_mesh(
     path: &Path,
@@ -127,21 +126,21 @@ pub fn stage_mesh(
     }
 }
 
-/// Writes binary glTF with all that a viewer can be told, not yet in its place.
+/// Stages a binary glTF file with normals and a picture, see [`stage`].
 ///
 /// # Errors
-///
 /// [`WriteError::Glb`], [`WriteError::Io`].
 pub fn stage_glb(path: &Path, model: &Model) -> Result<Staged, WriteError> {
     let glb = Glb::new(model).map_err(|source| WriteError::Glb { path: path.to_owned(), source })?;
     stage(path, |out| glb.write(out))
 }
 
-/// Whether a mesh can be written under this name, so that a long computation need not end in an error.
+/// Checks whether a mesh can be written under this name, so that a long computation does not end in
+/// an error.
 ///
 /// # Errors
-///
-/// [`WriteError::UnknownFormat`] where the extension is that of no format that is written, or as [`can_be_written`].
+/// [`WriteError::UnknownFormat`] if the extension does not belong to a format that can be written;
+/// otherwise as [`can_be_written`].
 pub fn writable(path: &Path) -> Result<(), WriteError> {
     writer(path)?;
     can_be_written(path)
@@ -220,7 +219,7 @@ fn obj(out: &mut dyn Write, surface: &Surface, text: Option<&VertexText>, uv: Op
     for (f, polygon) in surface.faces.iter().enumerate() {
         out.write_all(b"f")?;
         for (c, &vertex) in surface.faces.corner_range(f).zip(polygon) {
-            // indices count from 1; 64 bits because the last one may not fit 32
+            // Indices count from 1; 64 bits, because the last one may not fit into 32.
             let vertex = u64::from(vertex) + 1;
             match texture {
                 Some(texture) => write!(out, " {vertex}/{}", u64::from(texture[c]) + 1)?,
@@ -272,7 +271,7 @@ fn numbers(out: &mut dyn Write, numbers: &[f64]) -> io::Result<()> {
     numbers.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))
 }
 
-/// The length of a list whose type was chosen for lists up to `most`.
+/// Writes the length of a list whose type was chosen for lists up to `most`.
 fn length(out: &mut dyn Write, length: usize, most: usize) -> io::Result<()> {
     if most <= 255 { out.write_all(&[length as u8]) } else { out.write_all(&(length as u32).to_le_bytes()) }
 }

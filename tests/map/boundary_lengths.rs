@@ -190,7 +190,7 @@ fn files_of_lengths_are_read_and_bad_ones_refused_by_line() {
         ("0 1 2\n3\n", "line 2"),
         ("1 2\n", "line 1"),
         ("lengths\nfactors\n1\n", "line 2"),
-        ("0 1 1\n1 0 2\n", "line 2: edge 1 0 was in line 1 already"),
+        ("0 1 1\n1 0 2\n", "line 2: edge 1 0 is already given in line 1"),
         ("-1 1 1\n", "line 1"),
     ] {
         let message = read(text).unwrap_err();

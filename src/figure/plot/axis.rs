@@ -6,31 +6,31 @@ use crate::figure::FigureError;
 use crate::figure::frame::{labeller, round_step};
 use crate::figure::scale::exponent_label;
 
-/// The part of an axis that is shown, with its ticks: what plotters asks of a coordinate.
+/// The visible range of an axis with its ticks, as plotters requires it.
 #[derive(Clone, Debug)]
 pub(super) struct Ruler {
     low: f64,
     high: f64,
     log: bool,
-    /// Values with a label and a line of the grid.
+    /// Values with a label and a grid line.
     major: Vec<(f64, String)>,
-    /// Values with a thin line of the grid.
+    /// Values with a thin grid line.
     minor: Vec<f64>,
 }
 
-/// Room between the outermost points and the frame, in parts of the axis.
+/// Space between the outermost points and the frame, relative to the length of the axis.
 const ROOM: f64 = 0.06;
-/// About as many labels stand along an axis.
+/// Approximate number of labels on an axis.
 const LABELS: f64 = 7.0;
-/// Shortest axis, in decades or in parts of its values.
+/// Shortest range of an axis, in decades or relative to its values.
 const NARROWEST: f64 = 1e-6;
-/// Shortest axis at all: steps between its ticks are numbers of full precision.
+/// Shortest range in absolute terms, so that steps between ticks are normal numbers.
 const SMALLEST: f64 = 1e-300;
-/// Ranges of as many decades have labels at powers of ten alone.
+/// Ranges of at least this many decades have labels only at powers of ten.
 const DECADES: f64 = 2.2;
 
 impl Ruler {
-    /// An axis that shows `values`, which are finite, and positive if `log`.
+    /// Makes an axis that shows `values`, which must be finite, and positive if `log`.
     pub(super) fn around(values: impl Iterator<Item = f64> + Clone, log: bool) -> Result<Ruler, FigureError> {
         let low = values.clone().fold(f64::INFINITY, f64::min);
         let high = values.fold(f64::NEG_INFINITY, f64::max);
@@ -39,15 +39,16 @@ impl Ruler {
         }
         let (from, to) = if log { (low.log10(), high.log10()) } else { (low, high) };
         let extent = match to - from {
-            // A single value stands in the middle of a decade, or of an interval of its own size.
+            // A single value is in the middle of a decade, or of an interval of its own size.
             0.0 if log => 1.0,
             0.0 if to != 0.0 => to.abs(),
             0.0 => 1.0,
-            // Values that differ by less are drawn as one: labels could not tell them apart.
+            // Values that differ by less are drawn as one, because labels could not distinguish
+            // them.
             extent => extent.max(if log { NARROWEST } else { NARROWEST * from.abs().max(to.abs()) }),
         };
         let narrow = (extent - (to - from)).max(0.0) / 2.0;
-        // A range that begins at zero does not go far below it.
+        // A range that begins at zero does not extend far below zero.
         let (below, above) = if !log && low == 0.0 { (0.02, 2.0 * narrow) } else { (ROOM, narrow) };
         let (from, to) = (from + above - 2.0 * narrow - below * extent, to + above + ROOM * extent);
         let (low, high) = if log { (10f64.powf(from), 10f64.powf(to)) } else { (from, to) };
@@ -64,7 +65,8 @@ impl Ruler {
         Ok(ruler)
     }
 
-    /// Powers of ten, thinned to about [`LABELS`]; 2 … 9 of each decade between them, or the powers left out.
+    /// Places ticks at powers of ten, thinned to about [`LABELS`], and minor ticks at 2 … 9 of each
+    /// decade or at the powers left out.
     fn mark_decades(&mut self, decades: f64) {
         let step = (decades / LABELS).ceil().max(1.0) as i32;
         for power in self.low.log10().floor() as i32..=self.high.log10().ceil() as i32 {
@@ -81,7 +83,8 @@ impl Ruler {
         self.keep_visible();
     }
 
-    /// Round mantissas, more of them the fewer decades there are; even steps within half a decade.
+    /// Places ticks at round mantissas, more of them for fewer decades; in even steps within half a
+    /// decade.
     fn mark_mantissas(&mut self) {
         let powers = self.low.log10().floor() as i32..=self.high.log10().ceil() as i32;
         for mantissas in [&[1.0, 2.0, 5.0][..], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0]] {
@@ -104,7 +107,7 @@ impl Ruler {
         let step = round_step((self.high - self.low) / LABELS);
         let label = labeller(self.low.abs().max(self.high.abs()), step);
         let first = (self.low / step).ceil();
-        // The count is small by the choice of the step; the bound is for offsets that swamp it.
+        // The choice of the step keeps the count small; the bound is for offsets that absorb it.
         let values: Vec<f64> = (0..20).map(|i| (first + f64::from(i)) * step).collect();
         self.minor = values.iter().map(|v| v - step / 2.0).collect();
         self.major = values.into_iter().map(|v| (v, label(v))).collect();
@@ -121,7 +124,7 @@ impl Ruler {
         self.major.iter().map(|(_, label)| label.as_str())
     }
 
-    /// Parts of the axis below `value`.
+    /// The position of `value` on the axis, from 0 to 1.
     fn position(&self, value: f64) -> f64 {
         if self.log {
             (value / self.low).ln() / (self.high / self.low).ln()
@@ -133,7 +136,7 @@ impl Ruler {
 
 fn plain(value: f64) -> String {
     if (1e-3..1e4).contains(&value) {
-        // Two digits, less where one tells it.
+        // Two significant digits, or one if that is exact.
         let decimals = (1 - value.log10().floor() as i32).max(0) as usize;
         let text = format!("{value:.decimals$}");
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }

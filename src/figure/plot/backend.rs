@@ -10,19 +10,21 @@ use crate::figure::colour::Colour;
 use crate::figure::drawing::{Anchor, Drawing, Shape};
 use crate::figure::{style, text};
 
-/// Whole units of plotters' coordinates per pixel of paper: plots are placed to a sixteenth of a pixel.
+/// Units of plotters' integer coordinates per pixel of paper: plots are positioned to a sixteenth
+/// of a pixel.
 pub(super) const FINE: f64 = 16.0;
 
 type Done = Result<(), DrawingErrorKind<Infallible>>;
 
-/// plotters drawing on a [`Drawing`], so that plots have the font, SVG and anti-aliased pixels of all figures.
+/// A backend with which plotters draws on a [`Drawing`], so that plots have the font, the SVG
+/// output and the anti-aliasing of all figures.
 pub(super) struct Sheet<'a> {
     pub(super) drawing: &'a mut Drawing,
-    /// Pixels of paper.
+    /// Size in pixels of paper.
     pub(super) size: [f64; 2],
 }
 
-/// Pixels of paper in units of plotters.
+/// Converts pixels of paper to units of plotters.
 pub(super) fn fine(pixels: f64) -> i32 {
     (pixels * FINE).round() as i32
 }
@@ -31,7 +33,7 @@ pub(super) fn place((x, y): BackendCoord) -> [f64; 2] {
     [f64::from(x) / FINE, f64::from(y) / FINE]
 }
 
-/// Over white paper, as if it were transparent: drawings have opaque colours alone.
+/// Blends a transparent colour with white paper, because drawings have only opaque colours.
 fn colour(BackendColor { alpha, rgb: (r, g, b) }: BackendColor) -> Colour {
     let Colour(paper) = style::PAPER;
     let mix = |c: u8, p: u8| (f64::from(c) * alpha + f64::from(p) * (1.0 - alpha)).round() as u8;
@@ -42,7 +44,7 @@ impl Sheet<'_> {
     fn segments(&mut self, points: impl IntoIterator<Item = BackendCoord>, colour: Colour, width: u32) {
         let points: Vec<[f64; 2]> = points.into_iter().map(place).collect();
         let segments = points.windows(2).map(|w| [w[0], w[1]]).collect();
-        // Round ends make round joints; the axes and the grid are straight pieces, cut at their ends.
+        // Curves have round ends and joints; axes and grid lines are cut at their ends.
         let round = points.len() > 2;
         self.drawing.shapes.push(Shape::Segments { segments, colour, width: f64::from(width) / FINE, round });
     }

@@ -16,23 +16,23 @@ use crate::figure::{FigureError, Format, style};
 
 /// Width of the lines between points.
 pub(super) const CURVE: f64 = 3.0;
-/// Of reference lines: width, dash, gap.
+/// Width, dash length and gap length of reference lines.
 pub(super) const REFERENCE: [f64; 3] = [2.5, 12.0, 8.0];
-/// Length of a tick; labels stand as far behind it.
+/// Length of a tick, and distance from it to its label.
 pub(super) const TICK: f64 = 8.0;
-/// The grid: lines with and without a label.
+/// Colours of grid lines with and without a label.
 const GRID: [Colour; 2] = [Colour([206, 208, 212]), Colour([234, 235, 238])];
 pub(super) const REFERENCE_COLOUR: Colour = Colour([110, 112, 118]);
 
 /// The visible points of a series, in order of x.
 struct Points {
-    /// Its place in the legend.
+    /// Its index in the legend.
     place: usize,
     at: Vec<[f64; 2]>,
     cloud: bool,
 }
 
-/// A panel's points and its reference lines.
+/// The points and reference lines of a panel.
 struct Content {
     points: Vec<Points>,
     lines: Vec<[[f64; 2]; 2]>,
@@ -48,7 +48,7 @@ pub(super) fn render(panels: &Panels, format: Format) -> Result<Vec<u8>, FigureE
     let contents: Vec<Content> =
         panels.plots.iter().map(|plot| Content::of(plot, &series)).collect::<Result<_, _>>()?;
     let columns = panels.columns.clamp(1, panels.plots.len().max(1));
-    // Panels above each other share their x axis, panels beside each other their y axis.
+    // The panels of a column share the x axis, those of a row the y axis.
     let in_column = |c: usize| panels.plots.iter().zip(&contents).skip(c).step_by(columns);
     let x: Vec<Ruler> = (0..columns.min(contents.len()))
         .map(|c| {
@@ -131,7 +131,7 @@ fn stroke(Colour([r, g, b]): Colour, width: f64) -> ShapeStyle {
     RGBColor(r, g, b).stroke_width(fine(width).unsigned_abs())
 }
 
-/// Where a panel stands, and what is written at it.
+/// The position of a panel and its labels.
 struct Panel {
     corner: [f64; 2],
     has_x_labels: bool,
@@ -139,7 +139,8 @@ struct Panel {
     is_single: bool,
 }
 
-/// What plotters draws: grid, axes, lines. Returns the markers with their places.
+/// Draws the parts for which plotters is used: grid, axes, lines. Returns the markers with their
+/// positions.
 fn chart(
     plot: &Plot,
     content: &Content,
@@ -150,7 +151,7 @@ fn chart(
 ) -> Result<Vec<(Marker, [f64; 2])>, FigureError> {
     let (corner, area, size) = (panel.corner, layout.area, layout.size);
     let root = Sheet { drawing, size }.into_drawing_area();
-    // The label of an axis that panels share is not plotters' to draw.
+    // Labels of axes shared by panels are drawn elsewhere.
     let below = size[1] - style::MARGIN - corner[1] - area[1];
     let below = if panel.is_single { below } else { 2.0 * TICK + style::SMALL_TEXT + style::GAP };
     let below = if panel.has_x_labels { below } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Where the parts of a plot stand on its sheet, and its legend.
+//! The positions of the parts of a plot on its sheet, and its legend.
 
 use super::Panels;
 use crate::figure::drawing::{Anchor, Drawing};
@@ -8,38 +8,38 @@ use crate::figure::plot::chart::{CURVE, REFERENCE, REFERENCE_COLOUR, TICK};
 use crate::figure::plot::marker::{Marker, RADIUS};
 use crate::figure::{style, text};
 
-/// The plot area within its frame, of a single plot, of two beside each other, of more.
+/// Size of the plot area within its frame: of a single plot, of two in a row, of more.
 const AREAS: [[f64; 2]; 3] = [[1040.0, 780.0], [760.0, 570.0], [560.0, 440.0]];
-/// Between panels.
+/// Distance between panels.
 const BETWEEN: f64 = 30.0;
-/// A panel's own title, with the room above it.
+/// Height of a panel's title, including the space above it.
 const PANEL_TITLE: f64 = 52.0;
-/// Length of the piece of line in the legend.
+/// Length of the line sample in the legend.
 const SAMPLE: f64 = 56.0;
-/// From one row of the legend to the next.
+/// Distance between rows of the legend.
 const ROW: f64 = 42.0;
-/// From the frame to the legend, and from one of its columns to the next.
+/// Distance from the frame to the legend, and between its columns.
 const DISTANCE: f64 = 36.0;
 
-/// A line of the legend; of a series with its marker, and whether there is a line through it.
+/// An entry of the legend; a series has its marker and whether there is a line through it.
 #[derive(Clone, Copy)]
 pub(super) enum Entry<'a> {
     Series(&'a str, Marker, bool),
     Reference(&'a str),
 }
 
-/// Places and sizes. Pixels.
+/// Positions and sizes in pixels.
 pub(super) struct Layout<'a> {
     title: Vec<String>,
     /// Upper left corner of the first panel.
     corner: [f64; 2],
-    /// Of a panel.
+    /// Size of a panel's plot area.
     pub(super) area: [f64; 2],
     pub(super) size: [f64; 2],
     columns: usize,
     rows: usize,
     legend: Vec<Entry<'a>>,
-    /// Of the first row of the legend.
+    /// Upper left corner of the first row of the legend.
     legend_corner: [f64; 2],
     legend_rows: usize,
     entry_width: f64,
@@ -61,7 +61,8 @@ impl<'a> Layout<'a> {
         let entry_width = DISTANCE + SAMPLE + style::GAP + names;
         let across = columns as f64 * (area[0] + BETWEEN) - BETWEEN;
         let down = rows as f64 * (area[1] + PANEL_TITLE) - PANEL_TITLE;
-        // Beside a single plot, as high as that; below panels, as wide as they are.
+        // Beside a single plot the legend has at most its height; below panels it has at most their
+        // width.
         let legend_columns = match single {
             true => legend.len().div_ceil((area[1] / ROW) as usize),
             false => ((across / entry_width) as usize).clamp(1, legend.len().max(1)),
@@ -86,13 +87,13 @@ impl<'a> Layout<'a> {
         Layout { title, corner, area, size, columns, rows, legend, legend_corner, legend_rows, entry_width }
     }
 
-    /// Upper left corner of the k-th panel.
+    /// The upper left corner of the k-th panel.
     pub(super) fn corner(&self, k: usize) -> [f64; 2] {
         let [row, column] = [k / self.columns, k % self.columns].map(|i| i as f64);
         [self.corner[0] + column * (self.area[0] + BETWEEN), self.corner[1] + row * (self.area[1] + PANEL_TITLE)]
     }
 
-    /// Titles; the labels of the axes where panels share them.
+    /// Draws the titles and the labels of axes that panels share.
     pub(super) fn titles(&self, panels: &Panels, drawing: &mut Drawing) {
         let [left, top] = self.corner;
         let across = self.columns as f64 * (self.area[0] + BETWEEN) - BETWEEN;
@@ -121,7 +122,7 @@ impl<'a> Layout<'a> {
 
     pub(super) fn legend(&self, drawing: &mut Drawing) {
         for (i, entry) in self.legend.iter().enumerate() {
-            // Beside a plot down the columns, below panels too.
+            // Entries run down the columns.
             let (row, column) = (i % self.legend_rows, i / self.legend_rows);
             let x = self.legend_corner[0] + column as f64 * self.entry_width;
             let y = self.legend_corner[1] + RADIUS + (row as f64 + 0.2) * ROW;
@@ -154,7 +155,7 @@ impl Entry<'_> {
     }
 }
 
-/// The series, then the reference lines; what several panels have in common stands once.
+/// Lists the series, then the reference lines; entries common to several panels occur once.
 fn entries<'a>(panels: &'a Panels, series: &[&'a str]) -> Vec<Entry<'a>> {
     let all = || panels.plots.iter().flat_map(|plot| &plot.series);
     let joined = |label: &str| all().any(|s| s.label == label && !s.cloud);

@@ -4,7 +4,8 @@ use crate::figure::colour::Colour;
 use crate::figure::drawing::{Drawing, Shape};
 use crate::figure::style;
 
-/// The colours of Okabe and Ito, told apart with any colour vision, but for yellow, which is too pale on paper.
+/// The colours of Okabe and Ito, distinguishable with any colour vision, without yellow, which is
+/// too pale on paper.
 const COLOURS: [Colour; 7] = [
     Colour([0, 114, 178]),
     Colour([213, 94, 0]),
@@ -15,8 +16,9 @@ const COLOURS: [Colour; 7] = [
     style::INK,
 ];
 
-/// Corners, angle of the first one, and radius in units of [`RADIUS`]: disc, square, triangle, diamond, triangle on its
-/// corner, pentagon, hexagon. The radii give all about the same area.
+/// Number of corners, angle of the first one, and radius in units of [`RADIUS`]: disc, square,
+/// triangle, diamond, inverted triangle, pentagon, hexagon. The radii give approximately equal
+/// areas.
 const SHAPES: [(usize, f64, f64); 7] = [
     (40, 0.0, 0.95),
     (4, FRAC_PI_2 / 2.0, 1.15),
@@ -27,12 +29,12 @@ const SHAPES: [(usize, f64, f64); 7] = [
     (6, 0.0, 1.1),
 ];
 
-/// Size of all markers. Pixels.
+/// Size of all markers, in pixels.
 pub(super) const RADIUS: f64 = 10.0;
-/// Width of their outlines.
+/// Width of their outlines, in pixels.
 const OUTLINE: f64 = 2.5;
 
-/// How the points of a series look.
+/// The marker of the points of a series.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Marker {
     pub(super) colour: Colour,
@@ -41,8 +43,8 @@ pub(super) struct Marker {
 }
 
 impl Marker {
-    /// Of the i-th series. The first seven differ in shape and in colour; the next seven are hollow; later ones pair
-    /// shapes with other colours.
+    /// Returns the marker of the i-th series. The first seven differ in shape and in colour, the
+    /// next seven are hollow, and later ones combine shapes with other colours.
     pub(super) fn of(i: usize) -> Marker {
         let (n, turn) = (COLOURS.len(), i / (2 * COLOURS.len()));
         Marker { colour: COLOURS[(i + turn) % n], shape: SHAPES[i % n], hollow: i / n % 2 == 1 }
@@ -56,18 +58,20 @@ impl Marker {
         };
         let points = (0..corners).map(corner).collect();
         let (fill, outline) = if self.hollow { (style::PAPER, self.colour) } else { (self.colour, style::PAPER) };
-        // The outline of a full marker sets it off from others below it.
+        // The outline of a full marker separates it from those it covers.
         let width = if self.hollow { OUTLINE } else { 1.0 };
         drawing.shapes.push(Shape::Polygon { points, fill, stroke: Some((outline, width)) });
     }
 }
 
-/// Series of more points are curves: a marker on each would hide them.
+/// Largest number of points of a series that all get a marker; on longer curves markers would hide
+/// the line.
 const MANY: usize = 24;
-/// Pixels along a curve from one marker to the next.
+/// Distance along a curve between markers, in pixels.
 const SPACING: f64 = 170.0;
 
-/// The places of the markers of the i-th series: all, or of a curve some, its end among them, not the same for all series.
+/// Returns the positions of the markers of the i-th series: all points, or some points of a long
+/// curve including its end, staggered between series.
 pub(super) fn some_of(i: usize, places: &[[f64; 2]]) -> Vec<[f64; 2]> {
     if places.len() <= MANY {
         return places.to_vec();

@@ -6,67 +6,71 @@ mod marker;
 
 use crate::figure::{FigureError, Format};
 
-/// A plot of series of points, lines between them, in the colours of Okabe and Ito with markers of different shapes.
+/// A plot of series of points and lines between them, with the colours of Okabe and Ito and markers
+/// of different shapes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// Over the plot; two lines at most, may be empty.
+    /// Title above the plot; at most two lines, possibly empty.
     pub title: String,
-    /// What goes right.
+    /// The horizontal axis.
     pub x: Axis,
-    /// What goes up.
+    /// The vertical axis.
     pub y: Axis,
-    /// In the order of the legend.
+    /// The series, in the order of the legend.
     pub series: Vec<Series>,
-    /// Dashed lines to compare slopes and levels with; they follow the series in the legend.
+    /// Dashed lines for comparison with slopes and levels; they follow the series in the legend.
     pub references: Vec<Reference>,
 }
 
-/// Plots of one kind beside each other: they share the legend, panels above each other the x axis, panels beside each other
-/// the y axis. A single one is drawn as a [`Plot`] is.
+/// Plots of one kind in a grid. They share the legend; columns share the x axis and rows the y
+/// axis.
+///
+/// A single one is drawn like a [`Plot`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panels {
-    /// Over all of them; each has its own title too, unless it is the only one.
+    /// Title above all panels; each also has its own title unless it is the only one.
     pub title: String,
-    /// Row by row, with the same axes.
+    /// The plots, row by row, with the same axes.
     pub plots: Vec<Plot>,
-    /// How many stand beside each other.
+    /// Number of columns.
     pub columns: usize,
 }
 
 impl Panels {
-    /// The panels as the bytes of a file.
+    /// Renders the panels to the bytes of a file.
     ///
     /// # Errors
-    /// As [`Plot::render`]; a column or row without a single point.
+    /// As for [`Plot::render`]; a column or row without any point.
     pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
         chart::render(self, format)
     }
 }
 
-/// An axis.
+/// An axis of a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What stands beside it.
+    /// The label.
     pub label: String,
-    /// Logarithmic: values that are not positive have no place on it and are left out.
+    /// Whether the axis is logarithmic; values that are not positive are then omitted.
     pub log: bool,
 }
 
-/// Points that belong together; unless they are a cloud they are joined in order of x, through the median of those at one x.
+/// The points of one series. Unless they are a cloud, a line joins them in order of x through the
+/// median of the points with equal x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Name in the legend.
+    /// Label in the legend.
     pub label: String,
-    /// (x, y); points that are not finite are left out.
+    /// The points (x, y); those that are not finite are omitted.
     pub points: Vec<[f64; 2]>,
-    /// Whether there is no line.
+    /// Whether the points are not joined by a line.
     pub cloud: bool,
 }
 
 /// The line y = c x^slope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
-    /// Name in the legend.
+    /// Label in the legend.
     pub label: String,
     /// The exponent. Both axes must be logarithmic unless it is 0.
     pub slope: f64,
@@ -75,16 +79,17 @@ pub struct Reference {
 }
 
 impl Plot {
-    /// The plot as the bytes of a file.
+    /// Renders the plot to the bytes of a file.
     ///
     /// # Errors
-    /// [`FigureError::NoPoints`] where nothing is left to draw; [`FigureError::Slope`] for a slope on an axis that is not
-    /// logarithmic; [`FigureError::PlotRange`] for values that floating point cannot lay on paper.
+    /// [`FigureError::NoPoints`] if no point can be shown; [`FigureError::Slope`] for a slope
+    /// without logarithmic axes; [`FigureError::PlotRange`] for a range that cannot be scaled in
+    /// floating point.
     pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
         Panels { title: self.title.clone(), plots: vec![self.clone()], columns: 1 }.render(format)
     }
 
-    /// The points that have a place on both axes, series by series, in order of x.
+    /// Returns the points that can be shown on both axes, series by series, in order of x.
     pub(super) fn visible(&self) -> Vec<Vec<[f64; 2]>> {
         let shown = |log: bool, v: f64| v.is_finite() && (!log || v > 0.0);
         let visible = |series: &Series| {
@@ -97,21 +102,22 @@ impl Plot {
     }
 }
 
-/// Where the line of a series runs, its points in the order of x: through the median of those at one x.
+/// Returns the vertices of the line of a series, whose points are in order of x: for each x the
+/// median of its points.
 pub(super) fn medians(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let median = |at: &[[f64; 2]]| {
         let mut values: Vec<f64> = at.iter().map(|p| p[1]).collect();
         values.sort_by(f64::total_cmp);
-        // Of an even number the lower one: a point that is there.
+        // For an even number the lower of the two, which is one of the points.
         [at[0][0], values[(values.len() - 1) / 2]]
     };
     points.chunk_by(|a, b| a[0] == b[0]).map(median).collect()
 }
 
 impl Reference {
-    /// y = c x^slope at `x`, given the points of the plot.
+    /// Evaluates y = c x^slope at `x`, given the points of the plot.
     pub(super) fn at(&self, points: &[[f64; 2]], x: f64) -> f64 {
-        /// How far below the lowest point a line without a point of its own runs.
+        /// Ratio of the line to the lowest point if it has no point of its own.
         const BELOW: f64 = 0.6;
         let constant = |p: &[f64; 2]| p[1] / p[0].powf(self.slope);
         let c = match &self.through {

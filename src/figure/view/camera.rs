@@ -2,46 +2,49 @@ use super::super::FigureError;
 use super::SurfaceView;
 use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 
-/// Where a surface is seen from.
+/// The position from which a surface is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// From the surface to the eye, of any length; by default chosen by the surface's normals, see [`SurfaceView`].
+    /// Direction from the surface to the eye, of any length; by default it depends on the surface's
+    /// normals, see [`SurfaceView`].
     pub towards: Option<[f64; 3]>,
-    /// What is upright in the picture; of any length. Where it points to the eye or away from it, the next of y, z, x is.
+    /// Upright direction in the picture, of any length. If it is parallel to the viewing direction,
+    /// the first suitable of y, z, x is used.
     pub up: [f64; 3],
-    /// Angle in degrees under which the surface's bounding sphere is seen, from 0.1 (nearly parallel) to 90.
+    /// Angle in degrees under which the bounding sphere is seen, from 0.1 (nearly parallel) to 90.
     pub field_of_view: f64,
 }
 
 impl Default for Camera {
-    /// z is up, the direction chosen, 26°: a page at reading distance.
+    /// The axis z is up, the direction is chosen automatically, and the angle is 26°, that of a
+    /// page at reading distance.
     fn default() -> Camera {
         Camera { towards: None, up: [0.0, 0.0, 1.0], field_of_view: 26.0 }
     }
 }
 
 impl Camera {
-    /// The default with another axis up.
+    /// Returns the default with another upright axis.
     pub fn with_up(up: [f64; 3]) -> Camera {
         Camera { up, ..Camera::default() }
     }
 }
 
-/// Space → picture: central projection from the eye, at Z = 0, to the plane Z = 1.
+/// The central projection from space to the picture plane Z = 1, with the eye at Z = 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lens {
-    /// Right, upward, towards the eye: orthonormal.
+    /// Orthonormal axes: right, upward, towards the eye.
     pub(super) axes: [[f64; 3]; 3],
     centre: [f64; 3],
     radius: f64,
-    /// From the eye to the centre, in radii.
+    /// Distance from the eye to the centre, in radii.
     pub(super) distance: f64,
-    /// Whether the side that the faces' normals point to is the outer one.
+    /// Whether the faces' normals point to the outer side.
     pub(super) outward: bool,
 }
 
 impl Lens {
-    /// The lens for a view whose surface lies in the box from `low` to `high`.
+    /// Makes the projection of a view whose surface lies in the box from `low` to `high`.
     pub(super) fn of(view: &SurfaceView, low: [f64; 3], high: [f64; 3]) -> Result<Lens, FigureError> {
         let camera = &view.camera;
         let angle = camera.field_of_view;
@@ -57,7 +60,7 @@ impl Lens {
         if largest > 1e150 {
             return Err(FigureError::SurfaceExtent { size });
         }
-        // Nor may they underflow.
+        // Nor underflow.
         if largest < 1e-150 {
             return Err(FigureError::NoSurfaceExtent { at: low });
         }
@@ -75,14 +78,15 @@ impl Lens {
         })
     }
 
-    /// A point in the picture's plane with its nearness 1/Z, which is affine in the picture along straight lines in space.
+    /// Projects a point; the third coordinate is its nearness 1/Z, which is affine in the picture
+    /// along straight lines in space.
     pub(super) fn place(&self, p: [f64; 3]) -> [f64; 3] {
         let p = scale(1.0 / self.radius, sub(p, self.centre));
         let nearness = 1.0 / (self.distance - dot(self.axes[2], p));
         [dot(self.axes[0], p) * nearness, dot(self.axes[1], p) * nearness, nearness]
     }
 
-    /// Of an edge, in radii; as seen at the surface's middle.
+    /// The length of an edge in radii.
     pub(super) fn length(&self, [a, b]: [[f64; 3]; 2]) -> f64 {
         norm(scale(1.0 / self.radius, sub(b, a)))
     }
@@ -96,7 +100,7 @@ fn direction(name: &'static str, vector: [f64; 3]) -> Result<[f64; 3], FigureErr
     Ok(scale(1.0 / length, vector))
 }
 
-/// Right, upward, `towards`, for unit vectors.
+/// The axes right, upward and `towards`, given unit vectors.
 fn axes(towards: [f64; 3], up: [f64; 3]) -> [[f64; 3]; 3] {
     let candidates = [up, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
     let right = candidates.map(|up| cross(up, towards));
@@ -105,37 +109,40 @@ fn axes(towards: [f64; 3], up: [f64; 3]) -> [[f64; 3]; 3] {
     [right, cross(towards, right), towards]
 }
 
-/// 1 for a box that has no height, 0 for one that is no wider than high.
+/// The flatness of a box: 1 if it has no height, 0 if it is not wider than high.
 fn flatness(size: [f64; 3], up: [f64; 3]) -> f64 {
     let height: f64 = (0..3).map(|k| up[k].abs() * size[k]).sum();
     let width = (0..3).map(|k| (1.0 - up[k] * up[k]).max(0.0).sqrt() * size[k]).fold(0.0, f64::max);
     if width > height { 1.0 - height / width } else { 0.0 }
 }
 
-/// Candidates for the direction to the eye: as many around the upright axis, and these angles above the ground.
+/// Candidates for the direction to the eye: number of directions around the upright axis, and
+/// angles above the ground.
 const AROUND: usize = 24;
 const ABOVE: [f64; 17] =
     [-60.0, -50.0, -40.0, -30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0];
-/// Three-quarter view: the eye right of −y where z is up, right of z where y is up.
+/// Preferred angle for a three-quarter view: the eye is to the right of −y if z is up, to the right
+/// of z if y is up.
 const FAVOURITE: f64 = -57.0;
-/// Mean normal of unit normals from which on a surface counts as open: more is seen of one side than of the other.
+/// A surface counts as open if the length of its mean unit normal exceeds this.
 const OPEN: f64 = 0.3;
-/// Angle at which the mean normal of an open surface is seen, in degrees.
+/// Angle in degrees between the view and the mean normal of an open surface.
 const ASLANT: f64 = 40.0;
-/// Angle above the ground from which a closed surface is seen, and how much more when it lies flat.
+/// Angle above the ground from which a closed surface is seen, and the additional angle if it is
+/// flat.
 const ELEVATION: f64 = 25.0;
 const ELEVATION_FLAT: f64 = 20.0;
-/// So many faces represent all when directions are compared.
+/// Number of faces that are sampled to compare directions.
 const ENOUGH: usize = 50_000;
 
-/// Area vectors of some faces and what follows from those of all; lengths in radii.
+/// A sample of area vectors and quantities computed from all of them; lengths in radii.
 struct Bulk {
     sample: Vec<[f64; 3]>,
     /// Area of the sample.
     area: f64,
-    /// Sum of all area vectors by the total area.
+    /// Sum of all area vectors divided by the total area.
     mean: [f64; 3],
-    /// Volume that the faces enclose with the centre, positive where the normals point outward.
+    /// The volume between the faces and the centre, positive if the normals point outward.
     volume: f64,
 }
 
@@ -164,10 +171,13 @@ impl Bulk {
         norm(self.mean) > OPEN
     }
 
-    /// Open surfaces are seen aslant from the side their normals point to, closed ones from above, where most of them
-    /// turns to the eye; among equals from the favourite side.
+    /// Chooses the direction to the eye.
+    ///
+    /// Open surfaces are seen at an angle from the side to which their normals point. Closed ones
+    /// are seen from above, where most of their area faces the eye. Ties are resolved by the
+    /// preferred angle.
     fn direction(&self, up: [f64; 3], elevation: f64) -> [f64; 3] {
-        // The ground's axes: x stays x where it can.
+        // The axes of the ground; x remains x if possible.
         let first = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|e| sub(e, scale(dot(e, up), up)));
         let first = if norm(first[0]) > 0.1 { first[0] } else { first[1] };
         let first = scale(1.0 / norm(first), first);
@@ -207,9 +217,9 @@ impl Bulk {
     }
 }
 
-/// ½ Σ p × q over the edges pq of a polygon: its area times its normal, where it is flat.
+/// The area vector ½ Σ p × q over the edges pq of a polygon: area times normal if it is flat.
 pub(super) fn area_vector(polygon: impl Iterator<Item = [f64; 3]> + Clone) -> [f64; 3] {
-    // From one corner on, for the sake of rounding.
+    // Relative to one corner, to reduce rounding.
     let Some(first) = polygon.clone().next() else { return [0.0; 3] };
     let mut corners = polygon.map(|p| sub(p, first));
     let mut last = corners.next().unwrap_or_default();

@@ -3,13 +3,15 @@ use super::super::colour::Colour;
 use super::super::raster::{blank_sheet, encode_png};
 use crate::io::glb::Affine;
 
-/// The checkerboard's light squares, dark squares.
+/// Colours of the light and dark squares of the checkerboard.
 pub(super) const SQUARES: [Colour; 2] = [Colour([250, 243, 224]), Colour([74, 112, 172])];
 
-/// Pixels along a square of [`Checker::tile`]: where a viewer blurs its border, that is a fraction of a percent.
+/// Pixels along a square of [`Checker::tile`]; the blurring of borders by viewers is then below a
+/// percent.
 const TILE: usize = 256;
 
-/// The plane measured in squares: (u, v) = (z − o) / side, a square being light where ⌊u⌋ + ⌊v⌋ is even.
+/// A checkerboard of the plane: (u, v) = (z − o) / side, and a square is light if ⌊u⌋ + ⌊v⌋ is
+/// even.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Checker {
     per_unit: f64,
@@ -17,10 +19,11 @@ pub struct Checker {
 }
 
 impl Checker {
-    /// About `squares` squares along the longer side of the box around `points`, beginning in its lower left corner.
+    /// Makes a checkerboard with about `squares` squares along the longer side of the bounding box
+    /// of `points`, beginning in its lower left corner.
     ///
     /// # Errors
-    /// No squares; points that have no extent, or are not finite.
+    /// No squares; points that have no extent or are not finite.
     pub fn across(points: impl IntoIterator<Item = [f64; 2]>, squares: usize) -> Result<Checker, FigureError> {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for p in points {
@@ -35,26 +38,26 @@ impl Checker {
         Ok(Checker { per_unit: scale, origin: low })
     }
 
-    /// A point of the plane, in squares.
+    /// Returns a point of the plane in units of squares.
     pub fn at(&self, z: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| (z[k] - self.origin[k]) * self.per_unit)
     }
 
-    /// [`Checker::at`] as a matrix and a translation.
+    /// Returns [`Checker::at`] as an affine map.
     pub fn affine(&self) -> Affine {
         let k = self.per_unit;
         Affine { matrix: [[k, 0.0], [0.0, k]], origin: self.origin.map(|o| -o * k) }
     }
 
-    /// Two by two squares as a PNG file: what repeats.
+    /// Returns the period of the pattern, two by two squares, as a PNG file.
     ///
     /// # Errors
-    /// The encoder's.
+    /// Errors of the encoder.
     pub fn tile() -> Result<Vec<u8>, FigureError> {
         let side = 2 * TILE;
         let mut tile = blank_sheet(side as u32, side as u32)?;
         for (i, pixel) in tile.data_mut().chunks_exact_mut(4).enumerate() {
-            // Rows go down, squares up.
+            // Rows count downward, squares upward.
             let (column, row) = (i % side / TILE, 1 - i / side / TILE);
             let Colour(colour) = SQUARES[(column + row) % 2];
             pixel[..3].copy_from_slice(&colour);
@@ -62,6 +65,6 @@ impl Checker {
         encode_png(&tile, 1)
     }
 
-    /// From squares to texture coordinates under which [`Checker::tile`] has its squares: (u/2, 1 − v/2).
+    /// The map from squares to texture coordinates of [`Checker::tile`]: (u/2, 1 − v/2).
     pub const TO_TILE: Affine = Affine { matrix: [[0.5, 0.0], [0.0, -0.5]], origin: [0.0, 1.0] };
 }

@@ -22,22 +22,24 @@ use normals::corner_normals;
 use scene::Scene;
 use shade::{Mark, OUTLINE, Paints, SEAM, Shader, encode};
 
-/// A surface in space under the checkerboard that a map lays on it.
+/// A surface in space with the checkerboard of a map on it.
 ///
-/// A point with texture coordinates (u, v) is light where ⌊u⌋ + ⌊v⌋ is even. Within a triangle (u, v) is affine; any
-/// other polygon is a fan around its middle. Where squares are smaller than pixels they fade into their mean.
+/// A point with texture coordinates (u, v) is light if ⌊u⌋ + ⌊v⌋ is even. Within a triangle (u, v)
+/// is affine; other polygons are fans around their centres. Squares smaller than pixels fade into
+/// their mean.
 ///
-/// The eye is placed by [`Camera`]. By default an open surface is seen from the side that its normals point to, the other
-/// side being tinted darker; a closed one from above, where most of it turns to the eye.
+/// The eye is placed by [`Camera`]. By default an open surface is seen from the side to which its
+/// normals point, its other side being darker; a closed one is seen from above, where most of its
+/// area faces the eye.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceView<'a> {
-    /// `nv × 3`. Vertices without a face may be anything.
+    /// Positions, `nv × 3`. Those of vertices without a face are ignored.
     pub positions: &'a [[f64; 3]],
-    /// `nf` polygons.
+    /// The `nf` polygons.
     pub faces: &'a Faces,
-    /// Texture coordinates of every corner, face after face, in squares.
+    /// Texture coordinates of every corner, face after face, in units of squares.
     pub uv: &'a [[f64; 2]],
-    /// What the light falls on.
+    /// The normals for shading.
     pub shading: Shading<'a>,
     /// Faces drawn in [`super::ALARM`], in any order.
     pub marked: &'a [usize],
@@ -45,44 +47,48 @@ pub struct SurfaceView<'a> {
     pub reddened: &'a [usize],
     /// Whether the edges of the mesh are drawn, if an average face has room for them.
     pub edges: bool,
-    /// Edges drawn as lines, such as those of a cut, by their ends.
+    /// Edges drawn as lines, for example those of a cut, by their end vertices.
     pub seams: &'a [[u32; 2]],
-    /// Over the picture; two lines at most, may be empty.
+    /// Title above the picture; at most two lines, possibly empty.
     pub title: &'a str,
-    /// Where it is seen from.
+    /// The position of the eye.
     pub camera: Camera,
 }
 
-/// The normals by which a surface is lit.
+/// The normals with which a surface is shaded.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Shading<'a> {
-    /// At each corner the mean of the faces there, weighted by angle; edges above 40° are kept sharp.
+    /// At each corner the mean of the normals of the faces there, weighted by angle; edges with
+    /// dihedral angles above 40° stay sharp.
     #[default]
     Smooth,
-    /// Those of the faces.
+    /// The normals of the faces.
     Flat,
-    /// Given, one per face (`nf × 3`) of any length: what estimated normals see.
+    /// Given normals, one per face (`nf × 3`), of any length, for example estimated ones.
     Normals(&'a [[f64; 3]]),
 }
 
-/// Around the surface.
+/// Space around the surface.
 const PADDING: f64 = 6.0;
-/// Half the width of an outline, of seams; in pixels.
+/// Half widths of outlines and seams, in pixels.
 const OUTLINE_WIDTH: f64 = 0.9;
 const SEAM_WIDTH: f64 = 1.8;
-/// Half the width of mesh edges, and the pixels an average face must have to show them.
+/// Half width of mesh edges, and the smallest average area of a face, in pixels, for which they are
+/// drawn.
 const EDGE_WIDTH: f64 = 0.6;
 const FACE_WITH_EDGES: f64 = 60.0;
-/// How far lines are lifted off the surface, in their half widths: steeper faces than that swallow a part.
+/// Distance by which lines are lifted off the surface, in their half widths; steeper faces hide a
+/// part of them.
 const LIFT: f64 = 3.0;
-/// Seams are lifted by the length of their longest edge, but no more than this, in radii of the surface.
+/// Seams are lifted by the length of their longest edge, but at most by this, in radii of the
+/// surface.
 const SEAM_LIFT: f64 = 0.02;
 
 impl<'a> SurfaceView<'a> {
     /// The size of a picture for a page, in pixels.
     pub const SIZE: [u32; 2] = [1600, 1400];
 
-    /// A view with everything else by default.
+    /// Makes a view with default settings.
     pub fn new(positions: &'a [[f64; 3]], faces: &'a Faces, uv: &'a [[f64; 2]]) -> SurfaceView<'a> {
         SurfaceView {
             positions,
@@ -98,20 +104,23 @@ impl<'a> SurfaceView<'a> {
         }
     }
 
-    /// A unit vector at every corner, face after face, by the shading; 0 where a face has none.
+    /// Returns a unit normal for every corner, face after face, by the shading; 0 if a face has
+    /// none.
     pub fn corner_normals(&self) -> Vec<[f64; 3]> {
         corner_normals(self)
     }
 
-    /// The picture as the bytes of a PNG file, at most `size` pixels large: cut to what there is to see.
+    /// Renders the picture to the bytes of a PNG file of at most `size` pixels, cropped to its
+    /// content.
     ///
     /// # Errors
-    /// [`FigureError`]: what does not fit together, names no vertex, or has no place on paper.
+    /// [`FigureError`]: inconsistent sizes, indices out of range, or coordinates that cannot be
+    /// drawn.
     pub fn render(&self, size: [u32; 2]) -> Result<Vec<u8>, FigureError> {
         encode_png(&self.sheet(size.map(f64::from), 1)?.pixels, 1)
     }
 
-    /// The figure on a sheet of at most `size`, at `zoom` pixels per unit.
+    /// Renders the figure on a sheet of at most `size` units, at `zoom` pixels per unit.
     pub(super) fn sheet(&self, size: [f64; 2], zoom: usize) -> Result<Sheet, FigureError> {
         let margins = 2.0 * style::MARGIN;
         let room = size[0] - margins;
@@ -134,7 +143,7 @@ impl<'a> SurfaceView<'a> {
         Ok(Sheet { pixels, middle: top + down / 2.0 })
     }
 
-    /// The surface alone, in a picture of at most `room` units with `zoom` pixels each.
+    /// Renders the surface without title, in at most `room` units with `zoom` pixels each.
     pub(super) fn picture(&self, room: [f64; 2], zoom: usize) -> Result<Pixmap, FigureError> {
         let (low, high) = self.check()?;
         let lens = Lens::of(self, low, high)?;
@@ -147,11 +156,12 @@ impl<'a> SurfaceView<'a> {
             [x, y, p[2]]
         });
         let unit = (zoom * samples) as f64;
-        // A line lies over the surface by its half width: relative to the distance from the eye, in pixels.
+        // The lift is a multiple of the half width, converted from pixels to a fraction of the
+        // distance.
         let lift = |half_width: f64| LIFT * half_width * zoom as f64 / window.scale;
         let outline = edges(self.faces).into_iter().filter(|(_, single)| *single).map(|(edge, _)| edge);
         scene.draw(outline, OUTLINE, OUTLINE_WIDTH * unit, lift(OUTLINE_WIDTH));
-        // So that those in a corner between faces are not hidden by these.
+        // So that seams in a corner between faces are not hidden by these.
         let depth =
             |seam: &[u32; 2]| lens.length(seam.map(|v| self.positions[v as usize])).min(SEAM_LIFT) / lens.distance;
         let seam_lift = self.seams.iter().map(depth).fold(lift(SEAM_WIDTH), f64::max);
@@ -188,7 +198,7 @@ impl<'a> SurfaceView<'a> {
         Ok(sheet)
     }
 
-    /// Checks the data; the bounding box of all faces.
+    /// Checks the data and returns the bounding box of all faces.
     fn check(&self) -> Result<([f64; 3], [f64; 3]), FigureError> {
         let (faces, corners) = (self.faces.len(), self.faces.corners().len());
         if corners == 0 {
@@ -234,7 +244,7 @@ impl<'a> SurfaceView<'a> {
     }
 }
 
-/// The part of the picture's plane that is drawn, in pixels.
+/// The visible part of the picture plane.
 struct Window {
     size: [usize; 2],
     middle: [f64; 2],
@@ -243,7 +253,7 @@ struct Window {
 }
 
 impl Window {
-    /// Around all faces, as large as `room` permits.
+    /// Makes a window around all faces, as large as `room` permits.
     fn around(view: &SurfaceView, lens: &Lens, room: [f64; 2], zoom: usize) -> Result<Window, FigureError> {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for v in view.faces.corners() {
@@ -257,7 +267,7 @@ impl Window {
         if !(room[0] >= 1.0 && room[1] >= 1.0) {
             return Err(FigureError::Room { width: room[0], height: room[1] });
         }
-        // A surface that is seen as one point.
+        // The surface is seen as a single point.
         if !(scale.is_finite() && scale < 1e12) {
             return Err(FigureError::NoSurfaceExtent { at: view.positions[view.faces.corners()[0] as usize] });
         }
@@ -266,7 +276,7 @@ impl Window {
         Ok(Window { size: extent.map(side), middle, scale: scale * zoom as f64 })
     }
 
-    /// A point of the plane, in pixels, y downward.
+    /// Transforms a point of the picture plane to pixels, y downward.
     fn place(&self, [x, y, _]: [f64; 3]) -> [f64; 2] {
         let [width, height] = self.size.map(|s| s as f64 / 2.0);
         [width + (x - self.middle[0]) * self.scale, height - (y - self.middle[1]) * self.scale]

@@ -3,10 +3,10 @@ use super::{Shading, SurfaceView};
 use crate::geometry::vector::{add, dot, norm, scale, sub};
 use crate::surface::Faces;
 
-/// cos 40°: faces that meet at a sharper angle meet at a crease, and are shaded apart.
+/// cos 40°: faces that meet at a larger angle form a crease and are shaded separately.
 const CREASE: f64 = 0.766;
 
-/// A unit normal at every corner; 0 where a face has none.
+/// Returns a unit normal for every corner; 0 if a face has none.
 pub(super) fn corner_normals(view: &SurfaceView) -> Vec<[f64; 3]> {
     let faces = view.faces;
     let of_face: Vec<[f64; 3]> = match view.shading {
@@ -22,11 +22,11 @@ pub(super) fn corner_normals(view: &SurfaceView) -> Vec<[f64; 3]> {
     (0..faces.len()).flat_map(|f| std::iter::repeat_n(of_face[f], faces.corner_range(f).len())).collect()
 }
 
-/// At each corner the mean normal of the faces around its vertex that do not meet its own face at a crease, weighted by
-/// their angles there.
+/// Returns at each corner the mean normal, weighted by angle, of those faces around its vertex that
+/// do not form a crease with its own face.
 fn averaged(faces: &Faces, positions: &[[f64; 3]], of_face: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let vertex = faces.corners();
-    // The corners around every vertex, as (face, angle), bucketed.
+    // Counting sort of the corners by vertex, as (face, angle).
     let mut offset = vec![0u32; positions.len() + 1];
     vertex.iter().for_each(|v| offset[*v as usize + 1] += 1);
     for v in 0..positions.len() {
@@ -66,9 +66,9 @@ fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
     if product > 0.0 { (dot(a, b) / product).clamp(-1.0, 1.0).acos() } else { 0.0 }
 }
 
-/// The direction of a vector; 0 for one that has none.
+/// Normalises a vector; 0 stays 0.
 fn unit(v: [f64; 3]) -> [f64; 3] {
-    // Scaled first: squares of tiny components underflow.
+    // Scaled first, because squares of tiny components underflow.
     let largest = v.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     if !(largest > 0.0 && largest.is_finite()) {
         return [0.0; 3];

@@ -4,20 +4,20 @@ use super::camera::Lens;
 use super::{SurfaceView, scan::scan};
 use crate::geometry::vector::{add, scale};
 
-/// Pixel rows that are drawn at a time: their samples stay in the cache.
+/// Number of pixel rows that are drawn at a time, so that their samples stay in the cache.
 const BAND: usize = 16;
-/// Samples that show nothing; that show a line of that style.
+/// Marks a sample that shows nothing.
 pub(super) const EMPTY: u32 = u32::MAX;
-/// The first of the numbers that stand for lines.
+/// The first of the numbers of line styles.
 pub(super) const FIRST_LINE: u32 = u32::MAX - 8;
 
-/// A surface placed on the picture. Coordinates are samples, y downward, and nearness 1/Z.
+/// A projected surface. Coordinates are samples, y downward, and nearness 1/Z.
 ///
-/// Triangles have the number of a corner: of a triangular face that of its first corner; any other face is a fan around
-/// its middle, one triangle for the edge behind each corner.
+/// Triangles are numbered by corners. A triangular face has the number of its first corner. Other
+/// faces are fans around their centres, with one triangle for the edge that starts at each corner.
 pub(super) struct Scene<'a> {
     view: &'a SurfaceView<'a>,
-    /// Vertices, then the middle of every face unless all are triangles.
+    /// Projected vertices, followed by the centres of all faces unless all faces are triangles.
     places: Vec<[f64; 3]>,
     face_of_corner: Vec<u32>,
     lines: Vec<Line>,
@@ -28,22 +28,23 @@ pub(super) struct Scene<'a> {
 struct Line {
     ends: [[f64; 3]; 2],
     half_width: f64,
-    /// Nearness that it has over the surface.
+    /// Nearness added to that of the surface.
     lift: f64,
     style: u32,
 }
 
-/// What a triangle is made of.
+/// A triangle to be drawn.
 pub(super) struct Triangle {
     pub(super) places: [[f64; 3]; 3],
     pub(super) face: usize,
-    /// Its first two corners; the third is the last of a triangular face, or the face's middle.
+    /// Its first two corners; the third is the last corner of a triangular face or the centre of
+    /// the face.
     pub(super) corners: [usize; 2],
     pub(super) fan: bool,
 }
 
 impl<'a> Scene<'a> {
-    /// `to_samples` takes the picture's plane to samples.
+    /// Projects the surface; `to_samples` maps the picture plane to samples.
     pub(super) fn new(view: &'a SurfaceView<'a>, lens: &Lens, to_samples: impl Fn([f64; 3]) -> [f64; 3]) -> Scene<'a> {
         let place = |p: [f64; 3]| to_samples(lens.place(p));
         let used = used(view);
@@ -52,7 +53,7 @@ impl<'a> Scene<'a> {
         if view.faces.arity() != Some(3) {
             places.extend(view.faces.iter().map(|polygon| {
                 let part = 1.0 / polygon.len().max(1) as f64;
-                // An empty face has no middle and no triangle.
+                // An empty face has no centre and no triangle.
                 let middle = polygon.iter().map(|v| scale(part, view.positions[*v as usize])).reduce(add);
                 middle.map_or([0.0; 3], place)
             }));
@@ -64,7 +65,8 @@ impl<'a> Scene<'a> {
         Scene { view, places, face_of_corner, lines: Vec::new() }
     }
 
-    /// Adds lines along edges, `half_width` samples to both sides, over the surface by `lift` of their nearness.
+    /// Adds lines along edges: `half_width` samples on both sides, nearer than the surface by the
+    /// fraction `lift`.
     pub(super) fn draw(&mut self, edges: impl Iterator<Item = [u32; 2]>, style: u32, half_width: f64, lift: f64) {
         let places = &self.places;
         self.lines.extend(edges.map(|edge| {
@@ -73,7 +75,7 @@ impl<'a> Scene<'a> {
         }));
     }
 
-    /// Area of all triangles, seen or not, in square samples.
+    /// Total area of all triangles, visible or not, in square samples.
     pub(super) fn area(&self) -> f64 {
         let triangles = (0..self.face_of_corner.len()).filter_map(|c| self.triangle(c));
         let double = triangles.map(|Triangle { places: [a, b, c], .. }| {
@@ -82,7 +84,7 @@ impl<'a> Scene<'a> {
         double.sum::<f64>() / 2.0
     }
 
-    /// The triangle that a corner stands for, if any.
+    /// Returns the triangle with the number of a corner, if any.
     pub(super) fn triangle(&self, corner: usize) -> Option<Triangle> {
         let faces = self.view.faces;
         let face = self.face_of_corner[corner] as usize;
@@ -98,8 +100,8 @@ impl<'a> Scene<'a> {
         Some(Triangle { places: [place(corner), place(next), third], face, corners: [corner, next], fan })
     }
 
-    /// Calls `show(first row, numbers)` for the samples of one band after the other, each sample with the number of what
-    /// is seen there.
+    /// Calls `show(first row, numbers)` for one band of samples after the other, with the number of
+    /// the visible triangle or line at each sample.
     pub(super) fn bands(&self, [width, height]: [usize; 2], samples: usize, mut show: impl FnMut(usize, &[u32])) {
         let rows = BAND * samples;
         let bands = height.div_ceil(rows);
@@ -143,7 +145,8 @@ impl<'a> Scene<'a> {
 }
 
 impl Line {
-    /// The corners of the strip that it covers, longer than the line by half its width so that bends are closed.
+    /// The corners of the strip that the line covers; it is longer than the line by half its width,
+    /// so that bends are closed.
     fn ribbon(&self) -> [[f64; 3]; 4] {
         let [[x0, y0, near0], [x1, y1, near1]] = self.ends;
         let (dx, dy) = (x1 - x0, y1 - y0);
@@ -160,14 +163,14 @@ impl Line {
     }
 }
 
-/// Whether a face has the vertex.
+/// Returns for each vertex whether it belongs to a face.
 fn used(view: &SurfaceView) -> Vec<bool> {
     let mut used = vec![false; view.positions.len()];
     view.faces.corners().iter().for_each(|v| used[*v as usize] = true);
     used
 }
 
-/// The bands that a polygon reaches; `None` where it holds no row of samples.
+/// The bands that a polygon reaches; `None` if it covers no row of samples.
 fn bands_of(polygon: &[[f64; 3]], rows: usize, bands: usize) -> Option<Range<usize>> {
     let low = polygon.iter().fold(f64::INFINITY, |m, p| m.min(p[1]));
     let high = polygon.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p[1]));
@@ -176,14 +179,14 @@ fn bands_of(polygon: &[[f64; 3]], rows: usize, bands: usize) -> Option<Range<usi
     (first < end).then(|| (first / rows).min(bands)..end.div_ceil(rows).min(bands))
 }
 
-/// Numbers in bins, each bin in increasing order.
+/// Numbers sorted into bins, ascending in each bin.
 struct Bins {
     offset: Vec<usize>,
     numbers: Vec<u32>,
 }
 
 impl Bins {
-    /// `0 .. count`, each in the bins of a range.
+    /// Puts each of `0 .. count` into the bins of a range.
     fn new(bins: usize, count: usize, range: impl Fn(usize) -> Option<Range<usize>>) -> Bins {
         let mut offset = vec![0; bins + 1];
         for n in 0..count {

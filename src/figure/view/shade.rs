@@ -5,48 +5,48 @@ use super::checker::SQUARES;
 use super::scene::{EMPTY, FIRST_LINE, Scene, Triangle};
 use crate::geometry::vector::{add, dot, norm, scale};
 
-/// [`SQUARES`] of faces of large error: [`style::MARK`], and a lighter red.
+/// [`SQUARES`] of faces with large distortion: [`style::MARK`], and a lighter red.
 const RED: [Colour; 2] = [Colour([255, 120, 106]), style::MARK];
-/// What the colour is multiplied by on the inner side of an open surface.
+/// Factor of the colour on the inner side of an open surface.
 const INNER: [f64; 3] = [0.50, 0.42, 0.36];
-/// Lines in the order of their styles.
+/// Colours of the line styles.
 const LINES: [Colour; 2] = [style::INK, Colour([196, 62, 24])];
 pub(super) const OUTLINE: u32 = 0;
 pub(super) const SEAM: u32 = 1;
-/// Light from everywhere; from the eye: it darkens towards the silhouette.
+/// Ambient light, and light from the eye, which is weaker toward the silhouette.
 const AMBIENT: f64 = 0.17;
 const HEAD: f64 = 0.30;
-/// Lamps: direction (right, upward, towards the eye; unit vectors), strength.
+/// Lamps: direction (unit vector; right, upward, towards the eye) and strength.
 const LAMPS: [([f64; 3], f64); 2] = [([-0.48, 0.68, 0.555], 0.54), ([0.872, 0.155, 0.464], 0.12)];
-/// How far lamps shine around a surface, as the cosine behind 90°.
+/// Wrap-around of the lamps' light, as the cosine of an angle beyond 90°.
 const WRAP: f64 = 0.25;
-/// Squares per pixel at which the pattern begins to fade into its mean, and is gone.
+/// Squares per pixel at which the pattern begins to fade, and at which only its mean is left.
 const FADE: [f64; 2] = [0.6, 1.2];
 /// Opacity of mesh edges.
 const EDGE: f64 = 0.55;
 
-/// How a face is told from others.
+/// The marking of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mark {
     None,
-    /// Its squares are red, light and dark.
+    /// The squares are red, light and dark.
     Red,
-    /// It is all in the colour of flipped faces, unlit.
+    /// The whole face has the colour of flipped faces, unlit.
     Alarm,
 }
 
-/// What is seen at a sample: light, linear, red, green, blue.
+/// Computes the linear light (red, green, blue) at each sample.
 pub(super) struct Shader<'a> {
     pub(super) view: &'a SurfaceView<'a>,
     pub(super) scene: &'a Scene<'a>,
-    /// One per corner, in space.
+    /// Unit normals in space, one per corner.
     pub(super) normals: &'a [[f64; 3]],
     pub(super) axes: [[f64; 3]; 3],
     /// Whether the normals point to the outer side.
     pub(super) outward: bool,
-    /// One per face.
+    /// The marking of each face.
     pub(super) marks: &'a [Mark],
-    /// Samples from a mesh edge that show it; 0: edges are not drawn.
+    /// Distance, in samples, up to which a mesh edge is visible; 0 if edges are not drawn.
     pub(super) edges: f64,
     /// Samples per pixel along each axis.
     pub(super) samples: f64,
@@ -76,26 +76,29 @@ impl Paints {
     }
 }
 
-/// A triangle ready to be shaded. Barycentric coordinates in the picture are affine; those in space are their products
-/// with nearness, normalised: what makes the pattern correct in perspective.
+/// A triangle ready to be shaded.
+///
+/// Barycentric coordinates in the picture are affine; those in space are their products with
+/// nearness, normalised. This makes the pattern correct in perspective.
 struct Facet {
-    /// The corner it is numbered by.
+    /// The corner that numbers it.
     number: u32,
     places: [[f64; 3]; 3],
-    /// Of the barycentric coordinates.
+    /// Gradients of the barycentric coordinates.
     slopes: [[f64; 2]; 3],
     uv: [[f64; 2]; 3],
-    /// Right, upward, towards the eye; those of the side that is seen.
+    /// Normals in the axes right, upward, towards the eye, on the visible side.
     normals: [[f64; 3]; 3],
-    /// Multiplies the colour.
+    /// A factor of the colour.
     tint: [f64; 3],
     mark: Mark,
-    /// Samples per unit of each barycentric coordinate, where the edge opposite its corner is one of the mesh.
+    /// Samples per unit of each barycentric coordinate if the edge opposite its corner is an edge
+    /// of the mesh.
     edges: [Option<f64>; 3],
 }
 
 impl Shader<'_> {
-    /// Adds the light of each pixel's samples to `sums` for a band of whole pixel rows.
+    /// Adds the light of each pixel's samples to `sums`, for a band of whole pixel rows.
     pub(super) fn band(&self, first_row: usize, numbers: &[u32], width: usize, sums: &mut [[f64; 3]]) {
         let s = self.samples as usize;
         let Paints { paper, lines, .. } = self.paints;
@@ -134,7 +137,7 @@ impl Shader<'_> {
         };
         let [p, q, r] = places;
         let area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-        // Downward y: a face whose normal points to the eye is run through clockwise on paper, as numbers go.
+        // y points downward: a face whose normal points to the eye is clockwise on paper.
         let outer = (area < 0.0) == self.outward;
         let to_eye = if area < 0.0 { 1.0 } else { -1.0 };
         normals = normals.map(|n| scale(to_eye, self.axes.map(|axis| dot(axis, n))));
@@ -169,7 +172,8 @@ impl Shader<'_> {
         std::array::from_fn(|k| colour[k] + (edge[k] - colour[k]) * EDGE)
     }
 
-    /// The share of light squares around a point of a triangle: 1 inside of one, 0 inside of a dark one.
+    /// The share of light squares around a point of a triangle: 1 inside a light square, 0 inside a
+    /// dark one.
     fn square(&self, facet: &Facet, weights: [f64; 3], total: f64) -> f64 {
         let mut product = 1.0;
         for k in 0..2 {
@@ -180,10 +184,10 @@ impl Shader<'_> {
                 (part(0) + part(1) + part(2)) / total
             };
             let (across, down) = (slope(0), slope(1));
-            // Not hypot: it takes longer than all else here, and what overflows fades as well.
+            // hypot would dominate the cost; values that overflow fade to the mean anyway.
             let steep = (across * across + down * down).sqrt() * self.samples;
             let fade = (FADE[1] - steep) / (FADE[1] - FADE[0]);
-            // NaN, of numbers beyond all measure, becomes 0.
+            // NaN, from overflow, becomes 0.
             let fade = fade.max(0.0);
             if fade == 0.0 {
                 return 0.5;
@@ -195,12 +199,12 @@ impl Shader<'_> {
 }
 
 impl Facet {
-    /// Barycentric coordinates in the picture, none negative, of sum 1.
+    /// Barycentric coordinates in the picture, not negative, of sum 1.
     fn barycentric(&self, x: f64, y: f64) -> [f64; 3] {
-        // From the third corner: what rounding there is goes to the first two.
+        // Computed relative to the third corner; rounding affects the first two coordinates.
         let (dx, dy) = (x - self.places[2][0], y - self.places[2][1]);
         let b = [0, 1].map(|i| (self.slopes[i][0] * dx + self.slopes[i][1] * dy).clamp(0.0, 1.0));
-        // Triangles without area up to rounding.
+        // The triangle has no area up to rounding.
         if b.iter().any(|b| b.is_nan()) {
             return [1.0 / 3.0; 3];
         }
@@ -208,21 +212,23 @@ impl Facet {
     }
 }
 
-/// Mean over `[x − w/2, x + w/2]` of the square wave that is 1 on [0, 1), −1 on [1, 2), of period 2.
+/// The mean over `[x − w/2, x + w/2]` of the square wave of period 2 that is 1 on [0, 1) and −1 on
+/// [1, 2).
 fn stripe(x: f64, width: f64) -> f64 {
-    // x modulo 2, and on from there.
+    // x modulo 2.
     let x = x - 2.0 * (x / 2.0).floor();
     let (low, high) = (x - width / 2.0, x + width / 2.0);
     let inside = low.floor();
     if high < inside + 1.0 || width < 1e-9 {
         return if x < 1.0 { 1.0 } else { -1.0 };
     }
-    // The wave's integral: up to 1 and down again.
+    // The integral of the wave: it rises to 1 and falls again.
     let integral = |x: f64| 1.0 - (x - 2.0 * (x / 2.0).floor() - 1.0).abs();
     ((integral(high) - integral(low)) / width).clamp(-1.0, 1.0)
 }
 
-/// Light on a surface whose normal, in coordinates right, upward, towards the eye, has any length.
+/// The light on a surface whose normal, in the axes right, upward, towards the eye, can have any
+/// length.
 fn illumination(normal: [f64; 3]) -> f64 {
     let length = norm(normal);
     if length == 0.0 {
@@ -236,7 +242,7 @@ fn illumination(normal: [f64; 3]) -> f64 {
     AMBIENT + HEAD * normal[2].max(0.0) + lamps.sum::<f64>()
 }
 
-/// Linear light of a colour of sRGB.
+/// Converts an sRGB colour to linear light.
 fn linear(Colour(c): Colour) -> [f64; 3] {
     c.map(|c| {
         let c = f64::from(c) / 255.0;
@@ -244,7 +250,7 @@ fn linear(Colour(c): Colour) -> [f64; 3] {
     })
 }
 
-/// The colour of sRGB of linear light; what is brighter than paper is as bright.
+/// Converts linear light to an sRGB colour; light brighter than paper is clamped.
 pub(super) fn encode(light: [f64; 3]) -> [u8; 3] {
     light.map(|c| {
         let c = if c <= 0.0031308 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };

@@ -1,4 +1,4 @@
-//! The JSON of a glTF file, as far as it is used here.
+//! The subset of the JSON of a glTF file that is used here.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -46,7 +46,8 @@ struct Scene {
     nodes: [u32; 1],
 }
 
-/// The outer one turns the source's axes to those of glTF, the inner one puts its middle where it was.
+/// The outer node rotates the source's axes to those of glTF; the inner node translates the mesh
+/// back to its original position.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Node {
@@ -68,7 +69,7 @@ struct GltfMesh {
     extras: Option<Extras>,
 }
 
-/// How to have the map back: `(u, v) = matrix · TEXCOORD_0 + origin`.
+/// The inverse of the texture transformation: `(u, v) = matrix · TEXCOORD_0 + origin`.
 #[derive(Serialize)]
 struct Extras {
     map: Affine,
@@ -142,7 +143,7 @@ struct Accessor {
     count: usize,
     #[serde(rename = "type")]
     kind: &'static str,
-    // As doubles, which have every digit of a float.
+    // Doubles represent floats exactly.
     #[serde(skip_serializing_if = "Option::is_none")]
     min: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -165,7 +166,7 @@ struct Buffer {
     byte_length: usize,
 }
 
-/// The views of the one buffer, behind each other, and the arrays in them.
+/// The layout of the buffer: consecutive views and the arrays in them.
 #[derive(Default)]
 struct Layout {
     accessors: Vec<Accessor>,
@@ -180,7 +181,7 @@ impl Layout {
         self.views.len() - 1
     }
 
-    /// An array of `count` times `components` words.
+    /// Adds an array of `count` × `components` 32-bit words and returns its index.
     fn array(&mut self, component_type: u32, count: usize, components: usize) -> usize {
         let kind = ["SCALAR", "VEC2", "VEC3"][components - 1];
         let target = if component_type == FLOAT { ARRAY_BUFFER } else { ELEMENT_ARRAY_BUFFER };
@@ -191,7 +192,7 @@ impl Layout {
 }
 
 impl Document {
-    /// In the order in which the mesh, then the picture of `picture` bytes are written.
+    /// Describes a file in which the mesh and then the picture of `picture` bytes are written.
     pub(super) fn new(mesh: &Mesh, model: &Model, picture: usize) -> Document {
         let mut layout = Layout::default();
         let position = layout.array(FLOAT, mesh.positions.len(), 3);
@@ -203,7 +204,7 @@ impl Document {
         let picture = (picture > 0).then(|| layout.view(picture, None));
         let images = picture.map(|buffer_view| Image { buffer_view, mime_type: "image/png" });
         let sampler = Sampler { mag_filter: LINEAR, min_filter: LINEAR_MIPMAP_LINEAR, wrap_s: REPEAT, wrap_t: REPEAT };
-        // −90° around the first axis: z to y.
+        // A rotation by −90° about the first axis takes z to y.
         let rotation = model.z_up.then_some([-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2]);
         let inverse = model.texture.inverse();
         Document {

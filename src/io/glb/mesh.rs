@@ -5,14 +5,17 @@ use super::{GlbError, Model};
 use crate::geometry::vector::{dot, sub};
 use crate::surface::Faces;
 
-/// Sizes whose squares, and those of a millionth of them, are floats of 32 bits: viewers compute with these.
+/// Allowed sizes: their squares, and those of a millionth of them, are 32-bit floats. Viewers
+/// compute with these.
 const SIZES: RangeInclusive<f64> = 1e-15..=1e15;
 
-/// Vertices as glTF has them: one for every position, normal and texture coordinate that meet at some corner, those of one
-/// vertex of the source behind each other, in its order.
+/// A mesh in the form of glTF, with one vertex for each combination of position, normal and texture
+/// coordinate at a corner.
+///
+/// The copies of a vertex of the source have consecutive indices, in the order of the source.
 pub(super) struct Mesh {
     pub(super) centre: [f64; 3],
-    /// From the centre.
+    /// Positions relative to the centre.
     pub(super) positions: Vec<[f32; 3]>,
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) texture: Vec<[f32; 2]>,
@@ -43,13 +46,13 @@ impl Mesh {
         })
     }
 
-    /// Length of what [`Mesh::write`] writes.
+    /// The number of bytes that [`Mesh::write`] writes.
     pub(super) fn bytes(&self) -> u64 {
         let words = 3 * (self.positions.len() + self.normals.len() + self.triangles.len()) + 2 * self.texture.len();
         4 * words as u64
     }
 
-    /// Lowest and highest position along each axis.
+    /// The lowest and highest position along each axis.
     pub(super) fn bounds(&self) -> [[f32; 3]; 2] {
         let bound = |start: f32, pick: fn(f32, f32) -> f32| {
             self.positions.iter().fold([start; 3], |m, p| [0, 1, 2].map(|k| pick(m[k], p[k])))
@@ -57,7 +60,7 @@ impl Mesh {
         [bound(f32::INFINITY, f32::min), bound(f32::NEG_INFINITY, f32::max)]
     }
 
-    /// Positions, normals, texture coordinates, indices, without gaps.
+    /// Writes positions, normals, texture coordinates and indices, without gaps.
     pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut floats = |floats: &[f32]| floats.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()));
         self.positions.iter().try_for_each(|p| floats(p))?;
@@ -67,7 +70,7 @@ impl Mesh {
     }
 }
 
-/// The middle of the box around points and its longest side.
+/// Returns the centre of the bounding box and its longest side.
 fn centre(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], f64) {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for p in points {
@@ -75,20 +78,22 @@ fn centre(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], f64) {
         high = [0, 1, 2].map(|k| high[k].max(p[k]));
     }
     let size = (0..3).fold(0.0, |size: f64, k| size.max(high[k] - low[k]));
-    // Halved first: the sum may be beyond all doubles.
+    // The sum could overflow, so both are halved first.
     ([0, 1, 2].map(|k| low[k] / 2.0 + high[k] / 2.0), size)
 }
 
-/// In single precision. glTF has no normals of length 0, which faces without area have: the third axis then.
+/// Normalises in single precision. Faces without area have the normal 0, which glTF does not allow;
+/// it is replaced by the third axis.
 fn unit(normal: [f64; 3]) -> [f32; 3] {
     let length = dot(normal, normal).sqrt();
     if length > 0.0 { normal.map(|x| (x / length) as f32) } else { [0.0, 0.0, 1.0] }
 }
 
-/// Corners of one vertex with the same attributes made one: a corner of each of these, and which one each corner is.
+/// Merges corners of one vertex with equal attributes; returns a representative corner of each
+/// merged vertex, and the merged vertex of each corner.
 fn merged<A: PartialEq>(model: &Model, attributes: impl Fn(usize) -> A) -> (Vec<u32>, Vec<u32>) {
     let vertex = model.faces.corners();
-    // The corners by vertex: a counting sort.
+    // Counting sort of the corners by vertex.
     let mut first = vec![0u32; model.positions.len() + 1];
     vertex.iter().for_each(|&v| first[v as usize + 1] += 1);
     for v in 0..model.positions.len() {
@@ -116,7 +121,7 @@ fn merged<A: PartialEq>(model: &Model, attributes: impl Fn(usize) -> A) -> (Vec<
     (representative, of_corner)
 }
 
-/// The triangles of all faces, as corners.
+/// Iterates over the triangles of all faces, as triples of corners.
 fn triangles<'a>(model: &'a Model) -> impl Iterator<Item = [usize; 3]> + 'a {
     let Model { faces, positions, .. } = *model;
     (0..faces.len()).flat_map(move |f| {
@@ -127,7 +132,8 @@ fn triangles<'a>(model: &'a Model) -> impl Iterator<Item = [usize; 3]> + 'a {
     })
 }
 
-/// The corner, from 0, from which the triangles of a face fan out: of quads the first end of the shorter diagonal.
+/// Returns the corner, from 0, from which the triangles of a face fan out; for quads an end of the
+/// shorter diagonal.
 fn apex(faces: &Faces, positions: &[[f64; 3]], f: usize) -> usize {
     let &[a, b, c, d] = faces.get(f) else { return 0 };
     let length = |v: u32, w: u32| {

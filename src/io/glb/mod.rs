@@ -1,4 +1,4 @@
-//! Binary glTF 2.0: a surface with its map as texture coordinates, and a picture that these lay on it.
+//! Binary glTF 2.0: a surface with its map as texture coordinates, and a picture as texture.
 //!
 //! ```text
 //! file   = header (12 bytes)  JSON chunk  BIN chunk        little-endian, chunks of whole words
@@ -6,8 +6,8 @@
 //! (s, t) = texture(u, v)      per corner, from the map; t points down in glTF
 //! ```
 //!
-//! glTF has floats of 32 bits: positions are counted from the middle of the surface's box, which is the translation of the
-//! node, so that what is far from the origin loses nothing.
+//! glTF has 32-bit floats. Positions are stored relative to the centre of the bounding box, which
+//! becomes the translation of the node, so that surfaces far from the origin lose no precision.
 
 mod document;
 mod mesh;
@@ -23,21 +23,22 @@ use mesh::Mesh;
 pub struct Affine {
     /// M, by rows.
     pub matrix: [[f64; 2]; 2],
-    /// o.
+    /// The image o of the origin.
     pub origin: [f64; 2],
 }
 
 impl Affine {
-    /// `(u, v) ↦ (u, 1 − v)`: a picture stands upright on the unit square where v points up.
+    /// The map `(u, v) ↦ (u, 1 − v)`, with which a picture is upright on the unit square if v
+    /// points up.
     pub const UPRIGHT: Affine = Affine { matrix: [[1.0, 0.0], [0.0, -1.0]], origin: [0.0, 1.0] };
 
-    /// M x + o
+    /// Returns M x + o.
     pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let row = |k: usize| self.matrix[k][0] * x + self.matrix[k][1] * y + self.origin[k];
         [row(0), row(1)]
     }
 
-    /// `x ↦ self(first(x))`
+    /// Returns the composition `x ↦ self(first(x))`.
     pub fn after(&self, first: &Affine) -> Affine {
         let ([[a, b], [c, d]], [[p, q], [r, s]]) = (self.matrix, first.matrix);
         Affine {
@@ -46,7 +47,7 @@ impl Affine {
         }
     }
 
-    /// The map that undoes it; not finite where M is singular.
+    /// Returns the inverse map; it is not finite if M is singular.
     pub fn inverse(&self) -> Affine {
         let [[a, b], [c, d]] = self.matrix;
         let det = a * d - b * c;
@@ -55,53 +56,54 @@ impl Affine {
     }
 }
 
-/// What is written.
+/// A surface to be written as binary glTF.
 #[derive(Clone, Copy, Debug)]
 pub struct Model<'a> {
-    /// `nv × 3`; those of no face are left out.
+    /// Positions (`nv × 3`); vertices of no face are omitted.
     pub positions: &'a [[f64; 3]],
-    /// Polygons, counter-clockwise seen from outside. One of four corners is split along its shorter diagonal, one of more is
-    /// a fan from its first corner.
+    /// Polygons, counter-clockwise seen from outside. Quads are split along their shorter diagonal,
+    /// larger polygons into a fan from their first corner.
     pub faces: &'a Faces,
-    /// Whether the third axis points up, and not the second as in glTF.
+    /// Whether the third axis points up (instead of the second, as in glTF).
     pub z_up: bool,
-    /// Per corner, face after face, a unit vector; none: viewers take those of the triangles.
+    /// Unit normals per corner, face after face. Without them viewers use those of the triangles.
     pub normals: Option<&'a [[f64; 3]]>,
-    /// The map: per corner, face after face, (u, v).
+    /// The map: (u, v) per corner, face after face.
     pub map: Option<&'a [[f64; 2]]>,
-    /// (u, v) to texture coordinates.
+    /// The transformation from (u, v) to texture coordinates.
     pub texture: Affine,
-    /// A PNG file that repeats on the unit square of texture coordinates. Without a map it is left out.
+    /// A PNG file that is repeated periodically over the texture coordinates. Ignored without a
+    /// map.
     pub picture: Option<&'a [u8]>,
 }
 
-/// Why a surface does not fit into a file of binary glTF.
+/// A surface cannot be written as binary glTF.
 #[derive(Debug, thiserror::Error)]
 pub enum GlbError {
-    /// There is nothing to be shown.
+    /// The surface has no faces.
     #[error("the surface has no faces, and a .glb file must have some: name it .obj or .ply")]
     NoFaces,
-    /// All points are the same, or squares of lengths do not fit 32-bit floats.
+    /// All points coincide, or squares of lengths do not fit into 32-bit floats.
     #[error(
-        "the surface is {size:e} across, and the 32-bit floats of glTF are good for 1e-15 to 1e15: change the unit, \
+        "the surface is {size:e} across, and the 32-bit floats of glTF are accurate for 1e-15 to 1e15: change the unit, \
          or name it .obj or .ply"
     )]
     Size {
-        /// The longest side of its box.
+        /// The longest side of the bounding box.
         size: f64,
     },
-    /// Lengths within the file are words of 32 bits.
+    /// The file is longer than its 32-bit length fields allow.
     #[error("the file would have {bytes} bytes, and a .glb file has at most 4294967295: name it .obj or .ply")]
     TooLarge {
-        /// How many it would have.
+        /// Number of bytes of the file.
         bytes: u64,
     },
-    /// The description could not be made.
+    /// The JSON part could not be made.
     #[error(transparent)]
     Json(#[from] serde_json::Error),
 }
 
-/// A file that is ready to be written.
+/// A binary glTF file that is ready to be written.
 pub struct Glb<'a> {
     mesh: Mesh,
     picture: &'a [u8],
@@ -109,10 +111,10 @@ pub struct Glb<'a> {
 }
 
 impl<'a> Glb<'a> {
-    /// Lays the file out.
+    /// Lays out the file.
     ///
     /// # Errors
-    /// What does not fit into it.
+    /// [`GlbError`] if the surface cannot be represented.
     pub fn new(model: &Model<'a>) -> Result<Glb<'a>, GlbError> {
         let mesh = Mesh::new(model)?;
         let picture = model.picture.filter(|_| model.map.is_some()).unwrap_or_default();
@@ -125,7 +127,7 @@ impl<'a> Glb<'a> {
         }
     }
 
-    /// The length of the file.
+    /// The length of the file in bytes.
     pub fn bytes(&self) -> u64 {
         12 + 8 + self.json.len() as u64 + 8 + self.binary()
     }
@@ -134,10 +136,10 @@ impl<'a> Glb<'a> {
         (self.mesh.bytes() + self.picture.len() as u64).next_multiple_of(4)
     }
 
-    /// Writes it.
+    /// Writes the file.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut word = |word: u64| out.write_all(&(word as u32).to_le_bytes());
         word(0x4654_6C67)?; // glTF

@@ -3,17 +3,18 @@ use crate::io::mesh::{Parsed, mean_normals, push_face};
 use crate::io::off::Attributes;
 use crate::surface::Faces;
 
-/// How a writer understood `OFF BINARY`.
+/// A variant of the format `OFF BINARY`, which writers interpret differently.
 #[derive(Clone, Copy)]
 struct Dialect {
     big_endian: bool,
-    /// A count and that many floats behind every face.
+    /// Every face is followed by a count and that many floats.
     face_colours: bool,
-    /// Coordinates of 8 bytes.
+    /// Coordinates have 8 bytes.
     doubles: bool,
 }
 
-/// Geomview's own dialect first, then that of pmp-library (the writer's byte order, no colours), then the rest.
+/// Geomview's own dialect first, then that of pmp-library (little-endian, no colours), then the
+/// others.
 const DIALECTS: [Dialect; 8] = [
     Dialect { big_endian: true, face_colours: true, doubles: false },
     Dialect { big_endian: false, face_colours: false, doubles: false },
@@ -25,11 +26,12 @@ const DIALECTS: [Dialect; 8] = [
     Dialect { big_endian: true, face_colours: false, doubles: true },
 ];
 
-/// `OFF BINARY` from the byte behind its first line.
+/// Reads `OFF BINARY` from the byte after its first line.
 ///
-/// Files of this kind differ in byte order, in the width of coordinates and in whether faces carry a colour count. The
-/// dialect is the first one of [`DIALECTS`] in which every number is valid and the data ends exactly with the file.
-/// When none fits, the error is that of the dialect which got furthest.
+/// Such files differ in byte order, in the width of coordinates and in whether faces carry a colour
+/// count. The dialect is the first of [`DIALECTS`] in which every number is valid and the data ends
+/// exactly at the end of the file. If none fits, the error is that of the dialect that got
+/// furthest.
 pub(super) fn read(bytes: &[u8], start: usize, attributes: Attributes) -> Result<Parsed, Fault> {
     let mut furthest: Option<(usize, Fault)> = None;
     for dialect in DIALECTS {
@@ -54,7 +56,7 @@ struct Body<'a> {
 }
 
 impl Body<'_> {
-    /// Leaves `position` at the offending byte.
+    /// Reads counts, vertices and faces. After an error `position` is the offending byte.
     fn read(&mut self, attributes: Attributes) -> Result<Parsed, Defect> {
         let end = |wanted| Defect::UnexpectedEnd { wanted, what: "header numbers", done: 0, expected: 3 };
         let mut header = || self.word().map(u64::from).ok_or_else(|| end("a count"));
@@ -117,7 +119,7 @@ impl Body<'_> {
         }
         if self.dialect.face_colours {
             let colours = self.word().ok_or_else(|| end("the number of a face's colour components"))?;
-            // Geomview allows 0 to 4 components
+            // Geomview allows 0 to 4 components.
             if colours > 4 {
                 self.position -= 4;
                 return Err(Defect::NotACount { value: f64::from(colours), wanted: "number of colour components" });

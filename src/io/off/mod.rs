@@ -5,12 +5,13 @@ use super::mesh::{Normals, Parsed, VertexText, mean_normals, push_face};
 use super::token::{Syntax, Tokens, coordinate, integer, number};
 use crate::surface::Faces;
 
-/// What the letters before `OFF` announce for every vertex, in this order, behind its position.
+/// The vertex attributes that the letters before `OFF` declare; they follow the position in this
+/// order.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Attributes {
     /// `N`: a normal.
     pub normals: bool,
-    /// `C`: a colour, of four numbers in binary files.
+    /// `C`: a colour, four numbers in binary files.
     pub colours: bool,
     /// `ST`: texture coordinates.
     pub texture: bool,
@@ -22,19 +23,21 @@ struct Counts {
     faces: u64,
 }
 
-/// How the numbers are laid out.
+/// The role of line ends.
 #[derive(Clone, Copy, PartialEq)]
 enum Layout {
-    /// A record may begin and break anywhere, but nothing follows it on the line where it ends except its colour.
+    /// A record can begin and break anywhere, but only its colour follows it on the line where it
+    /// ends.
     Lines,
-    /// Records follow one another without regard to lines; faces have no colours.
+    /// Records follow one another regardless of lines; faces have no colours.
     Stream,
 }
 
-/// Geomview OFF, text or binary (<http://www.geomview.org/docs/html/OFF.html>).
+/// Reads Geomview OFF, text or binary (<http://www.geomview.org/docs/html/OFF.html>).
 ///
-/// The format is free-form except that a face's colour, of unstated length, ends with its line. [`Layout::Lines`] reads
-/// that; when it does not fit, [`Layout::Stream`] is accepted if it fits to the last word.
+/// The format is free-form except that the colour of a face, whose length is not declared, ends
+/// with its line. This is [`Layout::Lines`]; if it does not fit, [`Layout::Stream`] is accepted if
+/// it fits to the last word.
 pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
     let mut tokens = Tokens::new(bytes, Syntax::Comments);
     let attributes = header(&mut tokens)?;
@@ -48,7 +51,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
         .or_else(|fault| Body::read(tokens, attributes, counts, Layout::Stream).map_err(|_| fault))
 }
 
-/// `[ST][C][N][4][n]OFF`, which may be missing; the words of the counts may follow without a blank.
+/// Reads `[ST][C][N][4][n]OFF`, which is optional; the counts can follow without a blank.
 fn header(tokens: &mut Tokens) -> Result<Attributes, Fault> {
     let mut attributes = Attributes::default();
     let before = tokens.clone();
@@ -80,7 +83,8 @@ fn header(tokens: &mut Tokens) -> Result<Attributes, Fault> {
     Ok(attributes)
 }
 
-/// Numbers of vertices, faces and edges. The last, which nobody needs, may be missing when the first two share a line.
+/// Reads the numbers of vertices, faces and edges. The last is not used and can be missing if the
+/// first two share a line.
 fn counts(tokens: &mut Tokens) -> Result<Counts, Fault> {
     let vertices = count(tokens, "the number of vertices")?;
     let one_line = !tokens.at_line_end();
@@ -110,7 +114,8 @@ struct Body<'a> {
 
 impl<'a> Body<'a> {
     fn read(tokens: Tokens<'a>, attributes: Attributes, counts: Counts, layout: Layout) -> Result<Parsed, Fault> {
-        // a vertex or a face takes at least six bytes: what the header claims beyond that is not reserved
+        // A vertex or face takes at least six bytes; memory for larger declared counts is not
+        // reserved.
         let room = |claimed: u64| claimed.min(tokens.left() as u64 / 6) as usize;
         let mut positions = Vec::with_capacity(room(counts.vertices));
         let mut faces = Faces::with_capacity(room(counts.faces), 0);
@@ -160,7 +165,7 @@ impl<'a> Body<'a> {
         Ok(normal)
     }
 
-    /// Colours and texture coordinates of a vertex: to the end of the line.
+    /// Skips the colours and texture coordinates of a vertex.
     fn vertex_tail(&mut self, end: impl Fn(&'static str) -> Defect) -> Result<(), Fault> {
         if self.layout == Layout::Lines {
             self.tokens.end_line();
@@ -200,7 +205,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// A vertex index counted from 0.
+/// Parses a vertex index counted from 0.
 pub(super) fn vertex_index(word: &[u8], vertices: usize) -> Result<u32, Defect> {
     let Some(index) = integer(word) else {
         return Err(Defect::NotANumber { token: quote(word), wanted: "a vertex index" });

@@ -24,11 +24,11 @@ pub(super) struct Element {
 
 pub(super) struct Property {
     pub name: String,
-    pub kind: Kind,
+    pub kind: PropertyType,
 }
 
 #[derive(Clone, Copy)]
-pub(super) enum Kind {
+pub(super) enum PropertyType {
     Scalar(Scalar),
     List { count: Scalar, item: Scalar },
 }
@@ -75,12 +75,13 @@ impl Scalar {
 }
 
 impl Element {
-    /// Size of the shortest record, all its lists empty: in binary bytes, or in ascii (a character and a blank a value).
+    /// The size of the shortest record, with empty lists: in bytes, or in ascii a character and a
+    /// blank per value.
     pub fn shortest(&self, encoding: Encoding) -> u64 {
         let bytes = |p: &Property| match (encoding, p.kind) {
             (Encoding::Ascii, _) => 2,
-            (_, Kind::Scalar(s)) => s.bytes() as u64,
-            (_, Kind::List { count, .. }) => count.bytes() as u64,
+            (_, PropertyType::Scalar(s)) => s.bytes() as u64,
+            (_, PropertyType::List { count, .. }) => count.bytes() as u64,
         };
         self.properties.iter().map(bytes).sum()
     }
@@ -132,7 +133,7 @@ impl Header {
         }
         let encoding = encoding.ok_or_else(|| tokens.fault(Defect::HeaderLacks { what: "line `format …`" }))?;
         let line_end = tokens.line_end();
-        // after a lone carriage return a newline is the first byte of binary data
+        // After a lone carriage return, a newline would be the first byte of binary data.
         let length = if carriage_return_ends_lines { 1 } else { line_end_at(bytes, line_end) };
         Ok(Header { encoding, elements, end: (line_end + length).min(bytes.len()) })
     }
@@ -169,9 +170,9 @@ fn property(tokens: &mut Tokens) -> Result<Property, Fault> {
                     wanted: "a whole type for the length of a list",
                 }));
             }
-            Kind::List { count, item: scalar(tokens)? }
+            PropertyType::List { count, item: scalar(tokens)? }
         }
-        word => Kind::Scalar(scalar_named(tokens, word)?),
+        word => PropertyType::Scalar(scalar_named(tokens, word)?),
     };
     Ok(Property { name: name(tokens, "the name of a property")?, kind })
 }

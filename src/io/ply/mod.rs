@@ -1,16 +1,19 @@
 mod header;
 mod source;
 
-use header::{Element, Encoding, Header, Kind, Scalar};
+use header::{Element, Encoding, Header, PropertyType, Scalar};
 use source::{Ascii, Binary, Source};
 
 use super::error::{Defect, Fault, quote};
 use super::mesh::{Parsed, VertexText, mean_normals, push_face};
 use crate::surface::Faces;
 
-/// Stanford PLY, ascii or binary: `x y z` and `nx ny nz` of the vertices, `vertex_indices` (or `vertex_index`) of the
-/// faces. Other elements and properties are passed over. Counts in the header are believed only as far as the file goes.
-/// Ascii values are read as doubles whatever type the header gives them: no digit is lost.
+/// Reads Stanford PLY, ascii or binary: `x y z` and `nx ny nz` of the vertices, `vertex_indices`
+/// (or `vertex_index`) of the faces.
+///
+/// Other elements and properties are skipped. Counts in the header are not trusted beyond the
+/// length of the file. Ascii values are read in double precision whatever their declared type, so
+/// that no digit is lost.
 pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
     let header = Header::read(bytes)?;
     let vertices = check(&header)?;
@@ -20,14 +23,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
     }
 }
 
-/// Number of vertices, after making sure that the header declares a mesh.
+/// Checks that the header declares a mesh and returns the number of vertices.
 fn check(header: &Header) -> Result<u64, Fault> {
     let lacks = |what| Err(Fault::text(header.end.saturating_sub(1), Defect::HeaderLacks { what }));
     let named = |name| header.elements.iter().find(|e| e.name == name);
     let Some(vertex) = named("vertex") else {
         return lacks("element `vertex`");
     };
-    let has_scalar = |name: &str| vertex.properties.iter().any(|p| p.name == name && matches!(p.kind, Kind::Scalar(_)));
+    let has_scalar =
+        |name: &str| vertex.properties.iter().any(|p| p.name == name && matches!(p.kind, PropertyType::Scalar(_)));
     if !["x", "y", "z"].into_iter().all(has_scalar) {
         return lacks("scalar properties `x`, `y`, `z` for the element `vertex`");
     }
@@ -62,13 +66,13 @@ fn check(header: &Header) -> Result<u64, Fault> {
     Ok(vertex.count)
 }
 
-/// Which property of the faces lists their vertices.
+/// Returns the property of the faces that lists their vertices.
 fn index_list(face: &Element) -> Option<usize> {
-    let is_list = |kind| matches!(kind, Kind::List { item, .. } if !item.is_float());
+    let is_list = |kind| matches!(kind, PropertyType::List { item, .. } if !item.is_float());
     face.properties.iter().position(|p| (p.name == "vertex_indices" || p.name == "vertex_index") && is_list(p.kind))
 }
 
-/// What to do with a property.
+/// The use of a property.
 #[derive(Clone, Copy)]
 enum Role {
     Position(usize),
@@ -77,17 +81,17 @@ enum Role {
     Skip,
 }
 
-fn roles(element: &Element) -> Vec<(Role, Kind)> {
+fn roles(element: &Element) -> Vec<(Role, PropertyType)> {
     let axis = |name: &str, names: [&str; 3]| names.iter().position(|&n| n == name);
     let indices = if element.name == "face" { index_list(element) } else { None };
     let is_vertex = element.name == "vertex";
-    let role = |i: usize, name: &str, kind: Kind| match kind {
-        Kind::Scalar(_) if is_vertex => match (axis(name, ["x", "y", "z"]), axis(name, ["nx", "ny", "nz"])) {
+    let role = |i: usize, name: &str, kind: PropertyType| match kind {
+        PropertyType::Scalar(_) if is_vertex => match (axis(name, ["x", "y", "z"]), axis(name, ["nx", "ny", "nz"])) {
             (Some(k), _) => Role::Position(k),
             (_, Some(k)) => Role::Normal(k),
             _ => Role::Skip,
         },
-        Kind::List { .. } if indices == Some(i) => Role::Indices,
+        PropertyType::List { .. } if indices == Some(i) => Role::Indices,
         _ => Role::Skip,
     };
     element.properties.iter().enumerate().map(|(i, p)| (role(i, &p.name, p.kind), p.kind)).collect()
@@ -149,16 +153,16 @@ impl<'a, S: Source<'a>> Body<S> {
             let mut words: [&[u8]; 3] = [b""; 3];
             for &(role, kind) in &roles {
                 match (role, kind) {
-                    (Role::Position(k), Kind::Scalar(kind)) => {
+                    (Role::Position(k), PropertyType::Scalar(kind)) => {
                         position[k] = self.finite(kind, end)?;
                         words[k] = self.source.text();
                     }
-                    (Role::Normal(k), Kind::Scalar(kind)) => {
+                    (Role::Normal(k), PropertyType::Scalar(kind)) => {
                         normal[k] = self.source.scalar(kind)?.ok_or_else(|| self.source.fault(end()))?;
                     }
-                    (Role::Indices, Kind::List { count, item }) => self.indices(count, item, end)?,
-                    (_, Kind::Scalar(kind)) => self.skip(kind, 1, end)?,
-                    (_, Kind::List { count, item }) => {
+                    (Role::Indices, PropertyType::List { count, item }) => self.indices(count, item, end)?,
+                    (_, PropertyType::Scalar(kind)) => self.skip(kind, 1, end)?,
+                    (_, PropertyType::List { count, item }) => {
                         let length = self.length(count, end)?;
                         self.skip(item, length, end)?;
                     }

@@ -2,30 +2,30 @@ use super::header::{Encoding, Scalar};
 use crate::io::error::{Defect, Fault, quote};
 use crate::io::token::{Syntax, Tokens, integer, number};
 
-/// Values of a PLY body one after the other. `None`: the file has ended.
+/// A stream of the values of a PLY body. `None` means that the file has ended.
 pub(super) trait Source<'a> {
-    /// The next value.
+    /// Returns the next value.
     fn scalar(&mut self, kind: Scalar) -> Result<Option<f64>, Fault>;
 
-    /// The next value, a whole number.
+    /// Returns the next value, which must be an integer.
     fn whole(&mut self, kind: Scalar) -> Result<Option<i64>, Fault>;
 
-    /// Passes over values without looking at them; false: the file has ended.
+    /// Skips values; false if the file has ended.
     fn skip(&mut self, kind: Scalar, values: u64) -> bool;
 
-    /// The last value as the file has it; empty in binary files.
+    /// The text of the last value; empty in binary files.
     fn text(&self) -> &'a [u8];
 
-    /// A fault at the last value.
+    /// Makes a fault at the last value.
     fn fault(&self, defect: Defect) -> Fault;
 
-    /// Checks that an element's record ends here.
+    /// Checks that the record of an element ends here.
     fn end_record(&mut self, element: &str) -> Result<(), Fault>;
 
     /// Checks that the file ends here.
     fn end(&mut self) -> Result<(), Fault>;
 
-    /// Number of bytes left.
+    /// Number of bytes that are left.
     fn left(&self) -> u64;
 }
 
@@ -86,7 +86,7 @@ impl<'a> Source<'a> for Ascii<'a> {
     }
 
     fn left(&self) -> u64 {
-        // the last value needs no blank behind it
+        // The last value need not be followed by a blank.
         self.tokens.left() as u64 + 1
     }
 }
@@ -164,7 +164,7 @@ impl<'a> Source<'a> for Binary<'a> {
         Ok(())
     }
 
-    /// A last line end, as some writers add it, is no data.
+    /// Some writers add a final line end, which is not data.
     fn end(&mut self) -> Result<(), Fault> {
         let rest = self.bytes.get(self.position..).unwrap_or_default();
         if rest.iter().all(u8::is_ascii_whitespace) {

@@ -6,57 +6,57 @@ use thiserror::Error;
 use super::VolumeFormat;
 use crate::io::ParseError;
 
-/// Why a volume could not be read.
+/// A volume could not be read.
 #[derive(Debug, Error)]
 pub enum VolumeError {
-    /// The operating system refused: no such file, no permission, …
+    /// The operating system refused: no such file, no permission, ….
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
-    /// A folder was named.
+    /// The path is a folder.
     #[error("{} is a directory; name a volume in it ({})", path.display(), VolumeFormat::known())]
     Directory {
-        /// The path asked for.
+        /// The requested path.
         path: PathBuf,
     },
-    /// The extension is that of no known format.
+    /// The extension does not belong to a known format.
     #[error("{}: unknown volume format; known extensions: {}", path.display(), VolumeFormat::known())]
     UnknownFormat {
-        /// The path asked for.
+        /// The requested path.
         path: PathBuf,
     },
-    /// The content is not a volume in the format its extension states.
+    /// The content is not a volume in the format of its extension.
     #[error("{}, {source}", path.display())]
     Parse {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// Where it is wrong and how.
+        /// The defect and its place.
         source: ParseError,
     },
-    /// An option that a format has no use for.
+    /// An option is given that the format does not use.
     #[error("{}: a .{} file states its own {key}", path.display(), format.extension())]
     Superfluous {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// Its format.
         format: VolumeFormat,
         /// The option: `size` or `type`.
         key: &'static str,
     },
-    /// A raw file without its size.
+    /// The size of a raw file is not given.
     #[error("{}: raw values have no header, and the number of values along x, y, z is not given", path.display())]
     SizeNeeded {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
     },
-    /// A threshold that is not a number.
+    /// The threshold is not a finite number.
     #[error("the threshold {threshold} is not a finite number")]
     Threshold {
-        /// What was given.
+        /// The threshold that was given.
         threshold: f64,
     },
     /// No value is above the threshold.
@@ -65,13 +65,13 @@ pub enum VolumeError {
         path.display()
     )]
     Empty {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// Number of values.
         values: u64,
-        /// The largest of them.
+        /// The largest value.
         most: f64,
-        /// What they must exceed.
+        /// The threshold.
         threshold: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! Volumes: boxes of voxels, each with a value; inside is what exceeds a threshold.
+//! Volumes: boxes of voxel values. The voxels whose value exceeds a threshold are inside.
 
 mod error;
 mod fill;
@@ -19,14 +19,14 @@ use super::error::Fault;
 use crate::surface::digital::Solid;
 use fill::Volume;
 
-/// What a volume file does not say itself.
+/// The information that a volume file does not contain itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VolumeOptions {
-    /// Voxels with a value above it are inside; 0 when left out, as in DGtal.
+    /// Voxels with a larger value are inside; the default is 0, as in DGtal.
     pub threshold: Option<f64>,
-    /// Raw files: numbers of values along x, y, z.
+    /// Number of values along x, y, z of raw files.
     pub size: Option<[usize; 3]>,
-    /// Raw files: the type of a value, [`Sample::U8`] when left out.
+    /// Type of the values of raw files; the default is [`Sample::U8`].
     pub sample: Option<Sample>,
 }
 
@@ -37,7 +37,7 @@ pub enum Sample {
     /// One byte.
     #[default]
     U8,
-    /// Two bytes, the less significant one first.
+    /// Two bytes, little-endian.
     U16,
 }
 
@@ -61,7 +61,7 @@ impl VolumeFormat {
     pub const ALL: [VolumeFormat; 5] =
         [VolumeFormat::Vol, VolumeFormat::Longvol, VolumeFormat::Pgm3d, VolumeFormat::Npy, VolumeFormat::Raw];
 
-    /// The file name extension, in small letters.
+    /// The file name extension in lower case.
     pub fn extension(self) -> &'static str {
         match self {
             VolumeFormat::Vol => "vol",
@@ -72,13 +72,13 @@ impl VolumeFormat {
         }
     }
 
-    /// The format that a path's extension names, in capitals or not.
+    /// Returns the format of a path's extension, in upper or lower case.
     pub fn of(path: &Path) -> Option<VolumeFormat> {
         let extension = path.extension()?;
         VolumeFormat::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
-    /// All extensions, for messages: `.vol, .longvol, …`.
+    /// Lists all extensions for messages: `.vol, .longvol, …`.
     pub fn known() -> String {
         VolumeFormat::ALL.map(|format| format!(".{}", format.extension())).join(", ")
     }
@@ -89,12 +89,12 @@ pub fn is_volume(path: &Path) -> bool {
     VolumeFormat::of(path).is_some()
 }
 
-/// Reads a volume; the extension tells the format. A voxel is inside when its value is above the threshold.
+/// Reads a volume; the extension determines the format. Voxels whose value exceeds the threshold
+/// are inside.
 ///
 /// # Errors
-///
-/// [`VolumeError`] when the path is no readable file, the extension is unknown, the content is not a volume in its format, an
-/// option is missing or without use, or no voxel is inside.
+/// [`VolumeError`] if the path is not a readable file, the extension is unknown, the content is not
+/// a volume in its format, an option is missing or superfluous, or no voxel is inside.
 pub fn read_volume(path: &Path, options: &VolumeOptions) -> Result<Solid, VolumeError> {
     let owned = || path.to_owned();
     let threshold = options.threshold.unwrap_or(0.0);
@@ -116,18 +116,17 @@ pub fn read_volume(path: &Path, options: &VolumeOptions) -> Result<Solid, Volume
     Ok(volume.solid)
 }
 
-/// Reads a volume from the content of a file. There may be no voxel inside.
+/// Reads a volume from the content of a file. The result can be empty.
 ///
 /// # Errors
-///
-/// [`ParseError`] with the line or byte where the content is not a volume in this format, of the size in `options` for raw
-/// values.
+/// [`ParseError`] with the line or byte at which the content is not a volume in this format (for
+/// raw values: of the size in `options`).
 pub fn parse_volume(bytes: &[u8], format: VolumeFormat, options: &VolumeOptions) -> Result<Solid, ParseError> {
     let threshold = options.threshold.unwrap_or(0.0);
     parse(bytes, format, options, threshold).map(|volume| volume.solid).map_err(|fault| fault.locate(bytes))
 }
 
-/// Size and type belong to raw files, and to no others.
+/// Checks that size and type are given for raw files only.
 fn check(path: &Path, format: VolumeFormat, options: &VolumeOptions) -> Result<(), VolumeError> {
     let path = || path.to_owned();
     match (format, options.size, options.sample) {
@@ -140,8 +139,8 @@ fn check(path: &Path, format: VolumeFormat, options: &VolumeOptions) -> Result<(
 
 fn parse(bytes: &[u8], format: VolumeFormat, options: &VolumeOptions, threshold: f64) -> Result<Volume, Fault> {
     match format {
-        VolumeFormat::Vol => vol::read(bytes, vol::Kind::Vol, threshold),
-        VolumeFormat::Longvol => vol::read(bytes, vol::Kind::Longvol, threshold),
+        VolumeFormat::Vol => vol::read(bytes, vol::VolKind::Vol, threshold),
+        VolumeFormat::Longvol => vol::read(bytes, vol::VolKind::Longvol, threshold),
         VolumeFormat::Pgm3d => pgm3d::read(bytes, threshold),
         VolumeFormat::Npy => npy::read(bytes, threshold),
         VolumeFormat::Raw => {

@@ -2,10 +2,12 @@ use super::fill::{Filler, Volume, count};
 use crate::io::error::{Defect, Fault, quote};
 use crate::surface::digital::Solid;
 
-/// NumPy's `.npy`, an array of three axes of booleans, integers or floats, in C or Fortran order.
+/// Reads NumPy's `.npy`: an array of three axes of booleans, integers or floats, in C or Fortran
+/// order.
 ///
-/// Element `a[i, j, k]` is the voxel at (i, j, k): the axes are x, y, z, as scikit-image's `marching_cubes` places its
-/// vertices. An array that was made as `a[z, y, x]` gives the mirror image; `a.transpose(2, 1, 0)` mends it.
+/// Element `a[i, j, k]` is the voxel at (i, j, k): the axes are x, y, z, consistent with the
+/// vertices of scikit-image's `marching_cubes`. An array indexed as `a[z, y, x]` gives the mirror
+/// image; `a.transpose(2, 1, 0)` corrects this.
 pub(super) fn read(bytes: &[u8], threshold: f64) -> Result<Volume, Fault> {
     let header = Header::read(bytes)?;
     let size = header.size;
@@ -40,14 +42,15 @@ pub(super) fn read(bytes: &[u8], threshold: f64) -> Result<Volume, Fault> {
     }
 }
 
-/// The first index fastest.
+/// Reads values with the first index fastest.
 fn fortran(values: impl Iterator<Item = f64>, size: [usize; 3], threshold: f64) -> Volume {
     let mut filler = Filler::new(size, threshold);
     values.for_each(|value| filler.push(value));
     filler.finish([0.0; 3])
 }
 
-/// The last index fastest. The values are all there, so the whole box may be made at once.
+/// Reads values with the last index fastest. All of them are present, so the box is allocated at
+/// once.
 fn c(mut values: impl Iterator<Item = f64>, size: [usize; 3], threshold: f64) -> Volume {
     let mut solid = Solid::empty(size, [0.0; 3]);
     let (mut count, mut most) = (0, f64::NEG_INFINITY);
@@ -65,24 +68,24 @@ fn c(mut values: impl Iterator<Item = f64>, size: [usize; 3], threshold: f64) ->
     Volume { solid, values: count, most }
 }
 
-/// How a value is stored.
+/// The storage format of a value.
 #[derive(Clone, Copy)]
-struct Kind {
-    /// `b`, `u`, `i`, `f`.
+struct NpyType {
+    /// The type: `b`, `u`, `i` or `f`.
     letter: u8,
     bytes: usize,
     big_endian: bool,
 }
 
-impl Kind {
-    /// `<u2`, `|b1`, `>f8`, …
+impl NpyType {
+    /// Parses a type such as `<u2`, `|b1`, `>f8`.
     fn read(text: &[u8]) -> Option<Self> {
         let &[order @ (b'<' | b'>' | b'=' | b'|'), letter, digit] = text else { return None };
         let bytes = match (letter, digit) {
             (b'b', b'1') | (b'u' | b'i', b'1' | b'2' | b'4' | b'8') | (b'f', b'4' | b'8') => usize::from(digit - b'0'),
             _ => return None,
         };
-        Some(Kind { letter, bytes, big_endian: order == b'>' })
+        Some(NpyType { letter, bytes, big_endian: order == b'>' })
     }
 
     #[inline]
@@ -97,7 +100,7 @@ impl Kind {
         match (self.letter, self.bytes) {
             (b'f', 4) => f64::from(f32::from_bits(bits as u32)),
             (b'f', _) => f64::from_bits(bits),
-            // the sign travels to the top bit and back
+            // Shifting to the top bits and back extends the sign.
             (b'i', _) => ((bits << unused) as i64 >> unused) as f64,
             _ => bits as f64,
         }
@@ -105,16 +108,17 @@ impl Kind {
 }
 
 struct Header {
-    kind: Kind,
+    kind: NpyType,
     fortran: bool,
     size: [usize; 3],
-    /// First byte of the dictionary, and of the values.
+    /// Offsets of the dictionary and of the values.
     at: usize,
     data: usize,
 }
 
 impl Header {
-    /// `\x93NUMPY`, two bytes of version, the length of the dictionary in 2 bytes (version 1) or 4, and the dictionary.
+    /// Reads `\x93NUMPY`, two bytes of version, the length of the dictionary in 2 bytes (version 1)
+    /// or 4, and the dictionary.
     fn read(bytes: &[u8]) -> Result<Self, Fault> {
         if bytes.is_empty() {
             return Err(Fault::whole(Defect::Empty));
@@ -147,7 +151,7 @@ impl Header {
 
         let stored = value("'descr'")?;
         let name = stored.strip_prefix(b"'").and_then(|rest| rest.split(|&b| b == b'\'').next());
-        let Some(kind) = name.and_then(Kind::read) else {
+        let Some(kind) = name.and_then(NpyType::read) else {
             let what = "an array of this type";
             let advice = "save booleans, integers or floats of 4 or 8 bytes: numpy.save(file, a.astype(numpy.float32))";
             return Err(Fault::binary(at, Defect::Unsupported { what, advice }));
@@ -165,13 +169,13 @@ impl Header {
     }
 }
 
-/// What follows `key:` in the text of a dictionary.
+/// Returns the text after `key:` in a dictionary.
 fn entry<'a>(text: &'a [u8], key: &str) -> Option<&'a [u8]> {
     let at = text.windows(key.len()).position(|window| window == key.as_bytes())?;
     text[at + key.len()..].trim_ascii_start().strip_prefix(b":").map(<[u8]>::trim_ascii_start)
 }
 
-/// `3, 4, 5`, perhaps with a comma behind.
+/// Parses `3, 4, 5` with an optional trailing comma.
 fn three(text: &[u8]) -> Option<[usize; 3]> {
     let mut parts: Vec<&[u8]> = text.split(|&b| b == b',').map(<[u8]>::trim_ascii).collect();
     if parts.last().is_some_and(|last| last.is_empty()) {

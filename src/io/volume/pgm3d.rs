@@ -2,9 +2,12 @@ use super::fill::{Filler, Volume, count};
 use crate::io::error::{Defect, Fault, quote};
 use crate::io::token::{Syntax, Tokens, integer, number};
 
-/// PGM in three dimensions: `P3D` (DGtal) or `P5`, then the sizes along x, y, z, the largest value, one blank, and a byte for
-/// each voxel, x fastest; two bytes, the more significant first, where the largest value is above 255. `P2`: the values as
-/// text. `#` begins a comment in the header. Blanks may follow the last value.
+/// Reads PGM in three dimensions.
+///
+/// The header is `P3D` (DGtal) or `P5`, the sizes along x, y, z, the largest value, and one blank.
+/// It is followed by one byte per voxel, x fastest, or two bytes, big-endian, if the largest value
+/// exceeds 255. With `P2` the values are text. `#` begins a comment in the header. Blanks can
+/// follow the last value.
 pub(super) fn read(bytes: &[u8], threshold: f64) -> Result<Volume, Fault> {
     let mut tokens = Tokens::new(bytes, Syntax::Comments);
     let text = match tokens.next() {

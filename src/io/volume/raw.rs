@@ -2,7 +2,7 @@ use super::Sample;
 use super::fill::{Filler, Volume, count};
 use crate::io::error::{Defect, Fault};
 
-/// Values without a header, x fastest.
+/// Reads values without a header, x fastest.
 pub(super) fn read(bytes: &[u8], size: [usize; 3], sample: Sample, threshold: f64) -> Result<Volume, Fault> {
     if bytes.is_empty() {
         return Err(Fault::whole(Defect::Empty));

@@ -4,42 +4,44 @@ use super::fill::{Filler, Volume, count};
 use crate::io::error::{Defect, Fault, quote};
 use crate::io::token::{Syntax, Tokens, integer};
 
-/// The kind of value.
+/// The two formats, which differ in the width of values.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum VolKind {
     /// `.vol`: bytes.
     Vol,
-    /// `.longvol`: 8 bytes, the least significant first.
+    /// `.longvol`: 8 bytes, little-endian.
     Longvol,
 }
 
-impl Kind {
+impl VolKind {
     fn size_key(self) -> &'static str {
         match self {
-            Kind::Vol => "Voxel-Size",
-            Kind::Longvol => "Lvoxel-Size",
+            VolKind::Vol => "Voxel-Size",
+            VolKind::Longvol => "Lvoxel-Size",
         }
     }
 
     fn bytes(self) -> usize {
         match self {
-            Kind::Vol => 1,
-            Kind::Longvol => 8,
+            VolKind::Vol => 1,
+            VolKind::Longvol => 8,
         }
     }
 }
 
-/// DGtal's `.vol` and `.longvol`: lines `Key: value` up to a line `.`, then the values, x fastest. `Version` 2: as they are;
-/// 3: compressed by zlib; none: as they are behind the three sizes as binary numbers and a line end.
+/// Reads DGtal's `.vol` and `.longvol`: lines `Key: value` up to a line `.`, then the values, x
+/// fastest.
 ///
-/// As in DGtal, with `Center-X` the first voxel is at `Center-X − (X − 1)/2`, rounded toward zero, otherwise at 0.
-pub(super) fn read(bytes: &[u8], kind: Kind, threshold: f64) -> Result<Volume, Fault> {
+/// With `Version` 2 the values follow directly, with 3 they are compressed by zlib. Without a
+/// version they follow the three sizes as binary numbers and a line end. As in DGtal, `Center-X`
+/// places the first voxel at `Center-X − (X − 1)/2`, rounded toward zero; the default is 0.
+pub(super) fn read(bytes: &[u8], kind: VolKind, threshold: f64) -> Result<Volume, Fault> {
     let header = Header::read(bytes)?;
     let size = [header.size("X")?, header.size("Y")?, header.size("Z")?];
     let values = count(size).map_err(|defect| Fault::text(header.end.saturating_sub(1), defect))?;
     let (at, width) = header.required(kind.size_key())?;
     if width != kind.bytes() as i64 {
-        let wanted = if kind == Kind::Vol { "values of 1 byte" } else { "values of 8 bytes" };
+        let wanted = if kind == VolKind::Vol { "values of 1 byte" } else { "values of 8 bytes" };
         return Err(Fault::text(at, Defect::Unexpected { found: width.to_string(), wanted }));
     }
     let start = header.end;
@@ -63,11 +65,11 @@ pub(super) fn read(bytes: &[u8], kind: Kind, threshold: f64) -> Result<Volume, F
     Ok(filler.finish(origin))
 }
 
-/// The lines of a header.
+/// The fields of a header.
 struct Header<'a> {
     /// Key, value, byte offset of the value.
     fields: Vec<(&'a [u8], &'a [u8], usize)>,
-    /// First byte of the data.
+    /// Offset of the data.
     end: usize,
 }
 
@@ -80,7 +82,7 @@ impl<'a> Header<'a> {
             let end = lines.line_end();
             let line = &bytes[position..end];
             if line == b"." {
-                // `\n` and `\r\n`, and no more of what may be data
+                // Only one line end, because what follows can be data.
                 let data = end + if bytes[end..].starts_with(b"\r\n") { 2 } else { 1 };
                 return Ok(Header { fields, end: data.min(bytes.len()) });
             }
@@ -100,7 +102,7 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// A whole number, and where it stands.
+    /// Returns the integer value of a key and its byte offset.
     fn find(&self, key: &'static str) -> Result<Option<(usize, i64)>, Fault> {
         let Some(&(_, value, at)) = self.fields.iter().find(|field| field.0 == key.as_bytes()) else {
             return Ok(None);
@@ -124,7 +126,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// Where the values of a file without version start: behind the sizes and a line end.
+/// Returns the offset of the values in a file without version: after the sizes and a line end.
 fn first_version(bytes: &[u8], start: usize, size: [usize; 3]) -> Result<usize, Fault> {
     for (k, &n) in size.iter().enumerate() {
         let at = start + 4 * k;
@@ -147,7 +149,7 @@ fn first_version(bytes: &[u8], start: usize, size: [usize; 3]) -> Result<usize, 
     }
 }
 
-fn raw(bytes: &[u8], start: usize, values: u64, kind: Kind, filler: &mut Filler) -> Result<(), Fault> {
+fn raw(bytes: &[u8], start: usize, values: u64, kind: VolKind, filler: &mut Filler) -> Result<(), Fault> {
     let data = bytes.get(start..).unwrap_or_default();
     let (left, bytes_each) = (data.len() as u64, kind.bytes() as u64);
     let wanted = values.saturating_mul(bytes_each);
@@ -162,10 +164,10 @@ fn raw(bytes: &[u8], start: usize, values: u64, kind: Kind, filler: &mut Filler)
     Ok(())
 }
 
-fn compressed(bytes: &[u8], start: usize, values: u64, kind: Kind, filler: &mut Filler) -> Result<(), Fault> {
+fn compressed(bytes: &[u8], start: usize, values: u64, kind: VolKind, filler: &mut Filler) -> Result<(), Fault> {
     let mut decoder = flate2::bufread::ZlibDecoder::new(bytes.get(start..).unwrap_or_default());
     let mut buffer = vec![0; 1 << 16];
-    // bytes of a value that is not complete yet
+    // Number of bytes of an incomplete value.
     let mut kept = 0;
     loop {
         let result = decoder.read(&mut buffer[kept..]);
@@ -199,9 +201,9 @@ fn compressed(bytes: &[u8], start: usize, values: u64, kind: Kind, filler: &mut 
     }
 }
 
-fn push_all(data: &[u8], kind: Kind, filler: &mut Filler) {
+fn push_all(data: &[u8], kind: VolKind, filler: &mut Filler) {
     match kind {
-        Kind::Vol => data.iter().for_each(|&b| filler.push(f64::from(b))),
-        Kind::Longvol => data.as_chunks().0.iter().for_each(|&b| filler.push(u64::from_le_bytes(b) as f64)),
+        VolKind::Vol => data.iter().for_each(|&b| filler.push(f64::from(b))),
+        VolKind::Longvol => data.as_chunks().0.iter().for_each(|&b| filler.push(u64::from_le_bytes(b) as f64)),
     }
 }

@@ -7,13 +7,13 @@ use flate2::write::ZlibEncoder;
 use crate::io::{WriteError, atomically};
 use crate::surface::digital::Solid;
 
-/// Writes DGtal's `.vol`, version 3 (compressed): 1 for the voxels of the solid, 0 for the others of its box.
+/// Writes DGtal's `.vol`, version 3 (compressed): 1 for voxels of the solid, 0 for the others of
+/// its box.
 ///
-/// The centre is stated so that reading gives the same origin; an origin that is not at whole numbers is rounded, as the format
-/// knows no others.
+/// The centre is written so that reading gives the same origin. The format allows only integers, so
+/// other origins are rounded.
 ///
 /// # Errors
-///
 /// [`WriteError::Io`]; nothing is written then.
 pub fn write_vol(path: &Path, solid: &Solid) -> Result<(), WriteError> {
     let [width, height, depth] = solid.size();
