@@ -64,6 +64,11 @@ fn what_a_config_does_not_have_is_refused_with_line_and_known_names() {
     assert_refused("kind = \"cotan\"\n[map]\n", &[], &["study.toml:2: unknown key `map`"]);
     assert_refused("[surface\nsource = 3\n", &[], &["study.toml:1", "unclosed"]);
     assert_refused("[map]\n", &[], &["[surface]", "`source`"]);
+    // Options that contradict each other: the key that the message names; its value, where --set gave it.
+    let free = format!("{PLANE}[map]\ncut = true\nboundary = \"free\"\n");
+    assert_refused(&format!("{free}fix = 2\n"), &[], &["study.toml:6", "`fix`", "\n6 | fix = 2", "  | ^^^"]);
+    assert_refused(&free, &["map.fix=2"], &["--set map.fix=2", "`fix`"]);
+    assert_refused(&format!("{PLANE}[map]\nfix = 4\n"), &[], &["study.toml:3", "4 fixed boundary points"]);
 }
 
 #[test]

@@ -84,7 +84,11 @@ impl Sources {
     }
 
     fn error(&self, error: &Error, swept: Option<String>) -> ConfigError {
-        let place = self.place(error.span().unwrap_or(0..0));
+        self.error_at(error, error.span().unwrap_or(0..0), swept)
+    }
+
+    fn error_at(&self, error: &Error, span: Range<usize>, swept: Option<String>) -> ConfigError {
+        let place = self.place(span);
         // The reader breaks some of its messages into lines.
         let message = error.message().lines().collect::<Vec<_>>().join(", ");
         ConfigError::Toml { place, message, swept }
@@ -135,7 +139,10 @@ impl<'a> Document<'a> {
     pub fn optional<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, ConfigError> {
         let Some(value) = self.root.get_ref().get(name) else { return Ok(None) };
         let value = T::deserialize(ValueDeserializer::from(value.clone()));
-        value.map(Some).map_err(|error| self.sources.error(&error, self.assigned_at(error.span())))
+        value.map(Some).map_err(|error| {
+            let span = error.span().unwrap_or_else(|| self.quoted(name, error.message()));
+            self.sources.error_at(&error, span.clone(), self.assigned_at(Some(span)))
+        })
     }
 
     /// Fails unless `name`, which stands at the dotted key `key`, is one of `known`.
@@ -272,6 +279,16 @@ impl<'a> Document<'a> {
             value = value.get_ref().as_table()?.get(name)?;
         }
         Some(value)
+    }
+
+    /// The place of an error about the table `name` that has no span of its own, such as options that contradict each other:
+    /// the first key of the table that the message quotes, or the table.
+    fn quoted(&self, name: &str, message: &str) -> Range<usize> {
+        let value = self.root.get_ref().get(name);
+        let keys = value.and_then(|value| value.get_ref().as_table()).into_iter().flat_map(|table| table.keys());
+        let quoted = keys.filter_map(|key| Some((message.find(&format!("`{}`", key.get_ref()))?, key.span())));
+        let first = quoted.min_by_key(|(at, _)| *at).map(|(_, span)| span);
+        first.or_else(|| value.map(Spanned::span)).unwrap_or(0..0)
     }
 
     fn assigned_at(&self, span: Option<Range<usize>>) -> Option<String> {
