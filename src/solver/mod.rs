@@ -11,7 +11,7 @@ pub use linear::{
     solve_with,
 };
 pub use minimise::{MINIMISERS, MinimiseError, Minimiser, Minimum, Status, StopRule, minimiser};
-pub use observer::{Iteration, Observer, Phase, Silent};
+pub use observer::{Iteration, Observer, Phase, Repair, Silent};
 
 /// What `--solver` takes: `auto`, and all backends by name.
 pub fn solver_names() -> Vec<&'static str> {

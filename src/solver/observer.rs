@@ -13,6 +13,20 @@ pub enum Phase {
     Measure,
 }
 
+/// The repair of a map that is not injective.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Repair {
+    /// Faces are unflipped in one part of the map.
+    Part {
+        /// Number of the part, from 1.
+        number: usize,
+        /// Number of the parts.
+        count: usize,
+    },
+    /// The whole map is replaced by a bijective one.
+    Whole,
+}
+
 /// One iteration of a nonlinear solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Iteration {
@@ -32,6 +46,9 @@ pub struct Iteration {
 pub trait Observer {
     /// A phase begins.
     fn phase(&mut self, phase: Phase);
+
+    /// A repair begins; phases and iterations belong to it from now on.
+    fn repair(&mut self, _repair: Repair) {}
 
     /// An iteration has ended.
     fn iteration(&mut self, _iteration: &Iteration) {}

@@ -1,7 +1,7 @@
 //! What `run` and `reproduce` show: a line that lives where a terminal listens, lines of finished runs elsewhere.
 
 use std::io::{self, IsTerminal, Write, stderr, stdout};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::app::experiment::{Config, Event, Outcome, Record, Run};
 
@@ -28,7 +28,12 @@ pub struct Display {
     stopping: bool,
     live: bool,
     every_run: bool,
+    /// Time of the last line without a terminal.
+    last: Instant,
 }
+
+/// Time between two lines without a terminal in which no run ends.
+const SILENCE: Duration = Duration::from_secs(10);
 
 impl Display {
     /// For `total` runs.
@@ -47,6 +52,7 @@ impl Display {
             stopping: false,
             live,
             every_run: !(live && stdout().is_terminal()),
+            last: Instant::now(),
         }
     }
 
@@ -69,6 +75,7 @@ impl Display {
                 self.running.retain(|running| *running != name);
                 let outcome = self.count(config, run, record);
                 if self.every_run || record.outcome != Outcome::Done {
+                    self.last = Instant::now();
                     writeln!(out, "[{}/{}] {name}  {seconds:.2} s  {outcome}", self.ended(), self.total)?;
                 }
             }
@@ -81,6 +88,10 @@ impl Display {
                 let causes = with_cause(error);
                 writeln!(out, "{}: NOT SUMMED UP: {causes}", config.name)?;
                 self.complaints.push(format!("{}: {causes}", config.name));
+            }
+            Event::Pulse if !self.live && !self.running.is_empty() && self.last.elapsed() > SILENCE => {
+                eprintln!("riemap: {}", self.line());
+                self.last = Instant::now();
             }
             Event::Pulse => {}
         }
@@ -137,17 +148,19 @@ impl Display {
     }
 
     fn draw(&self) {
-        if !self.live || self.running.is_empty() {
-            return;
+        if self.live && !self.running.is_empty() {
+            let _ = write!(stderr(), "{}", self.line());
+            let _ = stderr().flush();
         }
+    }
+
+    /// Returns the counts, the time and the names of the runs in progress, shortened to one line.
+    fn line(&self) -> String {
         let seconds = self.begun.elapsed().as_secs();
         let bad = self.unexpected;
         let bad = if bad > 0 { format!(", {bad} not as expected") } else { String::new() };
         let line = format!("{}/{}{bad}, {seconds} s; running: {}", self.ended(), self.total, self.running.join(" · "));
-        let line: String =
-            if line.chars().count() > WIDTH { line.chars().take(WIDTH - 1).chain(['…']).collect() } else { line };
-        let _ = write!(stderr(), "{line}");
-        let _ = stderr().flush();
+        if line.chars().count() > WIDTH { line.chars().take(WIDTH - 1).chain(['…']).collect() } else { line }
     }
 }
 

@@ -16,7 +16,7 @@ pub struct Arguments {
 pub struct Topic {
     /// The name under which it is asked for.
     pub name: &'static str,
-    /// What it is about, in one line.
+    /// Its subject, in one line.
     pub about: &'static str,
     text: &'static str,
 }
@@ -28,8 +28,9 @@ pub const TOPICS: &[Topic] = &[
     topic("energies", "the terms of an energy and their weights", include_str!("topics/energies.md")),
     topic("solvers", "direct and iterative solvers, and when they stop", include_str!("topics/solvers.md")),
     topic("valid", "flipped faces, overlaps, and the maps that replace them", include_str!("topics/valid.md")),
-    topic("report", "the fields of the JSON report", include_str!("topics/report.md")),
+    topic("report", "the fields of the JSON report and its schema", include_str!("topics/report.md")),
     topic("experiments", "experiment files and their results", include_str!("topics/experiments.md")),
+    topic("limits", "what Riemap does not do, or not well", include_str!("topics/limits.md")),
     topic("bench", "how peers are compared", include_str!("topics/bench.md")),
     topic("exit-codes", "exit codes and signals", include_str!("topics/exit-codes.md")),
     topic("install", "shell completions and the man page", include_str!("topics/install.md")),

@@ -23,7 +23,7 @@ use crate::energy::{Mips, Rest};
 use crate::problem::nonlinear::{Objective, Terms};
 use crate::quad_graph::metric::RestMetric;
 use crate::solver::minimise::Newton;
-use crate::solver::{MinimiseError, Minimiser, Observer, Status, StopRule};
+use crate::solver::{self, MinimiseError, Minimiser, Observer, Status, StopRule};
 
 /// Name of the solver.
 const SOLVER: &str = "newton";
@@ -69,6 +69,7 @@ pub(super) fn unflipped(
 /// No convex combination map that passes the exact check; a factorisation that breaks down.
 pub(super) fn replacement(setup: &Setup, spent: usize, watch: &mut dyn Observer) -> Result<Map, MapError> {
     let Setup { options, domain, .. } = setup;
+    watch.repair(solver::Repair::Whole);
     let metric = domain.rest_metric(options)?.with_open_corners(&domain.disc, domain.planes.as_ref());
     let left = options.max_iterations.map(|n| n.saturating_sub(spent));
     let repair = Repair { setup, metric: &metric, left };

@@ -18,7 +18,7 @@ use crate::map::setup::Setup;
 use crate::map::{Boundary, Domain, Ending, Exactly, Map, MapError, MapOptions, Valid};
 use crate::problem::nonlinear::{Objective, Terms};
 use crate::quad_graph::triangles_of_face;
-use crate::solver::{Observer, Status};
+use crate::solver::{Observer, Repair, Status};
 use crate::surface::UnionFind;
 
 /// The share of MIPS beside H, both measured on a disc of area π. The less it is, the nearer the map is to the plain one: on 10⁴ jittered
@@ -95,7 +95,10 @@ pub(super) fn around_flipped(
         }
         let mut failed = Vec::new();
         // Each by itself: steps of one Newton iteration are as short as the worst part of all asks for.
-        for faces in components(domain, &faces) {
+        let parts = components(domain, &faces);
+        let count = parts.len();
+        for (k, faces) in parts.into_iter().enumerate() {
+            watch.repair(Repair::Part { number: k + 1, count });
             let patch = Patch::new(domain, (&at, &incidence), faces, &plain.fixed);
             let (stage, iterations) = work.solve(&patch, patch.restrict(&z), spent, watch)?;
             spent = iterations;

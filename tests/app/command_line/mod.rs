@@ -9,6 +9,7 @@ mod nonlinear;
 mod outputs;
 mod refusals;
 mod report;
+mod schema;
 mod shell;
 mod solvers;
 mod system;

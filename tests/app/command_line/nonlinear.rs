@@ -154,8 +154,8 @@ fn two_fixed_points_are_warned_of() {
     let shell = Shell::new();
     let ran = shell.run(&["map", "graph:cos+cos?n=9", "--fix", "2"]);
     assert_eq!(ran.code, 0);
-    assert!(ran.err.contains("two fixed points") && ran.err.contains("--fix 3"), "{}", ran.err);
-    assert!(!shell.run(&["map", "graph:cos+cos?n=9"]).err.contains("fixed points"));
+    assert!(ran.err.contains("two pinned points") && ran.err.contains("--fix 3"), "{}", ran.err);
+    assert!(!shell.run(&["map", "graph:cos+cos?n=9"]).err.contains("pinned points"));
 }
 
 #[test]
@@ -187,10 +187,10 @@ fn a_staircase_is_warned_of_and_can_be_kept_in_order() {
     let report: Value = serde_json::from_str(&shell.read("r.json")).unwrap();
     assert_eq!(number(&report, "/distortion/boundary_out_of_order"), 0.0);
     assert!(kept.code == 0 && !kept.err.contains("out of order"), "{}", kept.err);
-    // By default a valid map is in the place of the plain one, and a note says so.
+    // By default a map without flipped faces replaces it, and a note says so.
     let valid = shell.run(&["map", "m.obj", "--report", "r.json"]);
     let report: Value = serde_json::from_str(&shell.read("r.json")).unwrap();
-    assert!(valid.code == 0 && valid.err.contains("the plain map had"), "{}", valid.err);
+    assert!(valid.code == 0 && valid.err.contains("the conformal map had"), "{}", valid.err);
     assert_eq!((&report["solver"]["valid"], &report["solver"]["repaired"]), (&true.into(), &true.into()));
 }
 
@@ -305,7 +305,7 @@ fn what_valid_maps_are_promised_for_is_said_where_they_are_not() {
         ("m.obj", &["--valid", "auto"][..], ""),
         ("m.obj", &["--valid", "best-qc"], ""),
         ("m.obj", &["--valid", "off"], ""),
-        ("m.obj", &["--valid", "one-to-one"], "--valid one-to-one says no more than auto"),
+        ("m.obj", &["--valid", "one-to-one"], "--valid one-to-one is the same as auto"),
         ("m.obj", &[&free[..], &["--valid", "one-to-one"]].concat(), ""),
         ("m.obj", &[&free[..], &["--valid", "one-to-one", "--energy", "MIPS"]].concat(), "minimum of --energy"),
         ("m.obj", &["--energy", "H + C", "--valid", "off"], ""),
@@ -317,7 +317,7 @@ fn what_valid_maps_are_promised_for_is_said_where_they_are_not() {
         ),
         ("m.obj", &["--boundary", "fixed", "--valid", "auto"], "--valid has no effect on a fixed boundary"),
         ("m.obj", &["--boundary", "fixed", "--weights", "uniform", "--valid", "auto"], ""),
-        ("torus?n=9", &["--boundary", "periodic", "--valid", "auto"], "--valid has no effect: nothing takes the place"),
+        ("torus?n=9", &["--boundary", "periodic", "--valid", "auto"], "--valid has no effect: a map with periods"),
         ("digital-cap?R=5", &["--valid", "auto"], ""),
         ("m.obj", &["--keep-order"], ""),
         (folds, &[], ""),

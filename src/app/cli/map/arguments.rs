@@ -1,3 +1,5 @@
+//! The arguments of `riemap map`.
+
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -8,16 +10,13 @@ use clap::{Args, ValueEnum};
 use crate::constraint::Shape;
 use crate::energy::Expression;
 use crate::energy::conformal::Weight;
-use crate::io::{is_glb, read_boundary_lengths, read_positions};
+use crate::io::{read_boundary_lengths, read_positions};
 use crate::map::periodic::Tiling;
-use crate::map::{
-    Boundary, BoundaryName, FlatOptions, Hold, MapError, MapOptions, Mapped, Pin, RhoSource, Start, ValidName,
-};
+use crate::map::{Boundary, BoundaryName, FlatOptions, Hold, MapError, MapOptions, Pin, RhoSource, Start, ValidName};
 use crate::quad_graph::RestSource;
 use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
 use crate::solver::convex::EDGE_WEIGHTS;
 use crate::solver::solver_names;
-
 use crate::surface::normals::NormalSpec;
 
 use crate::app::cli::by_name;
@@ -27,128 +26,166 @@ use crate::app::cli::source::Source;
 pub struct Arguments {
     #[command(flatten)]
     pub(super) source: Source,
-    /// Write the mesh with the map as texture coordinates (.obj, .ply; .glb: to be looked at, with a checkerboard on it)
+    /// Write the mesh with the map as texture coordinates (.obj, .ply), or a model with a checkerboard (.glb)
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(super) output: Option<PathBuf>,
-    /// What the boundary does. circle: H + C; free: H + L', its lengths kept; fixed: H, boundary held on --shape;
-    /// periodic: H, closed surfaces of genus 1, two periods [default: circle]
+    /// Behaviour of the boundary: circle, free, fixed, periodic [default: circle]
+    ///
+    /// circle: the boundary slides on the unit circle (energy H + C). free: the boundary edges keep their lengths
+    /// (H + L'). fixed: the boundary is pinned on --shape or at --positions (H). periodic: a closed surface of genus 1
+    /// is mapped with two periods (H).
     #[arg(long, value_parser = by_name::<BoundaryName>, help_heading = "Boundary and constraints")]
     pub(super) boundary: Option<BoundaryName>,
-    /// Cut a surface that is no disc open along short lines; the output then has texture coordinates per corner
+    /// Cut the surface open to a disc
+    ///
+    /// A closed surface, or one with handles or several boundary loops, is cut along short lines. The output then has
+    /// texture coordinates per corner.
     #[arg(long, help_heading = "Surface")]
     pub(super) cut: bool,
-    /// Fill holes for the map: all but the longest, with --boundary periodic all; what is put in is not written
+    /// Fill the holes of the surface for the map
+    ///
+    /// All boundary loops but the longest are filled, with --boundary periodic all of them. The faces that fill them
+    /// are not written.
     #[arg(long, help_heading = "Surface")]
     pub(super) fill_holes: bool,
-    /// Leave a face out (from 0); repeatable
+    /// Leave out face F, counted from 0; repeatable
     #[arg(long, value_name = "F", help_heading = "Surface")]
     pub(super) remove_face: Vec<u32>,
-    /// Map faces without area too, which are refused otherwise: each as if its third vertex were
-    /// lifted off its longest edge to HEIGHT times the edge's length (quads: as a rectangle of
-    /// these sides)
+    /// Give faces without area a shape of relative HEIGHT, so that they can be mapped [default HEIGHT: 0.01]
     ///
-    /// The output keeps them as they are [default HEIGHT: 0.01]
+    /// Such faces are refused otherwise. Each is mapped as if its third vertex were lifted off its longest edge to
+    /// HEIGHT times the length of that edge; a quad, as a rectangle of these sides. The output keeps their positions.
     #[arg(long, value_name = "HEIGHT", num_args = 0..=1, require_equals = true, default_missing_value = "0.01", value_parser = height, help_heading = "Surface")]
     pub(super) surrogate: Option<f64>,
-    /// Energy, in place of the one of --boundary: terms H C A L Lb (L' is Lb) MIPS SD with coefficients, as in "H + 0.5 L + A"
+    /// Energy, instead of that of --boundary, such as "H + 0.5 L + A"
+    ///
+    /// The terms are H, C, A, L, Lb (the paper's L'), MIPS and SD, each with an optional coefficient; see `riemap help
+    /// energies`.
     #[arg(long, value_name = "E", value_parser = Expression::from_str, help_heading = "Energy")]
     pub(super) energy: Option<Expression>,
-    /// What a fixed boundary is laid on, by arc length: circle, square [default: circle]
+    /// Shape on which a fixed boundary is pinned by arc length: circle, square [default: circle]
     #[arg(long, value_parser = by_name::<Shape>, conflicts_with = "positions", help_heading = "Boundary and constraints")]
     pub(super) shape: Option<Shape>,
-    /// Hold vertices at the places of a file of lines `vertex x y` (vertices from 0), in place of --shape
+    /// Pin the vertices listed in FILE, instead of --shape
+    ///
+    /// Each line of the file is `vertex x y`, with vertices counted from 0.
     #[arg(long, value_name = "FILE", help_heading = "Boundary and constraints")]
     pub(super) positions: Option<PathBuf>,
-    /// Free maps: the lengths that the boundary edges are to have, one number a line in the order of the boundary (`riemap info
-    /// --boundary`), or lines `v w number`; after a first line `factors` multiples of those on the surface
+    /// Lengths that the boundary edges of a free map are to have
+    ///
+    /// The file has one number per line in the order of the boundary (see `riemap info MESH --boundary`), or lines
+    /// `v w number`. After a first line `factors`, the numbers are multiples of the lengths on the surface.
     #[arg(long, value_name = "FILE", help_heading = "Boundary and constraints")]
     pub(super) boundary_lengths: Option<PathBuf>,
-    /// Hold a vertex (from 0) at a place; repeatable. Beside a fixed boundary; in place of --fix for the circle
+    /// Pin vertex V, counted from 0, at (X, Y); repeatable
+    ///
+    /// Pins are added to a fixed boundary; on a circle they replace the points of --fix.
     #[arg(long, value_name = "V=X,Y", value_parser = pin, allow_hyphen_values = true, help_heading = "Boundary and constraints")]
     pub(super) pin: Vec<Pin>,
-    /// Boundary vertices held: whole (least squares), or primal (those of the mesh and one dual vertex: a square system)
-    /// [default: whole; with circumcentres primal]
+    /// Boundary vertices that a fixed boundary pins: whole, primal [default: whole; with circumcentres primal]
+    ///
+    /// whole: all boundary vertices of the quad graph; the equations are solved in least squares. primal: the boundary
+    /// vertices of the mesh and one dual vertex; the system is square and solved exactly.
     #[arg(long, value_name = "WHICH", value_parser = by_name::<Hold>, help_heading = "Boundary and constraints")]
     pub(super) hold: Option<Hold>,
-    /// With --boundary fixed: every inner vertex the mean of its neighbours by these weights, in place of H's minimum; see
-    /// `riemap list`
+    /// Weights of a convex combination map, with --boundary fixed
+    ///
+    /// Every interior vertex is then the mean of its neighbours by these weights, instead of minimising H. `riemap
+    /// list` describes them.
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EDGE_WEIGHTS.iter().map(|w| w.name)), help_heading = "Boundary and constraints")]
     pub(super) weights: Option<String>,
-    /// A circle or free map that folds is replaced by a valid one of little shear (auto; also a
-    /// circle map of σ1/σ2 above 2 in the mean), or any where the other has less shear (best-qc)
+    /// Map that replaces one with flipped faces: auto, best-qc, one-to-one, off [default: auto]
     ///
-    /// Free maps may overlap, unless they must not (one-to-one). off keeps the plain map, as an
-    /// --energy or pins of one's own do
+    /// auto: a circle or free map with flipped faces, or a circle map with a mean σ1/σ2 above 2, is replaced by one
+    /// without flipped faces. best-qc: the map of lower σ1/σ2 is taken. one-to-one: free maps must not overlap either.
+    /// off: the conformal map is kept, as it is beside --energy and --pin.
     #[arg(long, value_parser = by_name::<ValidName>, help_heading = "Solver")]
     pub(super) valid: Option<ValidName>,
-    /// How many boundary points a circle map holds: 3, or 2 as in the paper [default: 3]
+    /// Number of boundary points that a circle map pins: 3, or 2 as in the paper [default: 3]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=3), help_heading = "Boundary and constraints")]
     pub(super) fix: Option<u8>,
-    /// Circle maps: keep the boundary points in order
+    /// Keep the boundary points of a circle map in order
     #[arg(long, help_heading = "Boundary and constraints")]
     pub(super) keep_order: bool,
-    /// What a minimisation begins with: auto (with lengths or areas in the energy the free map, else the circle), circle
-    /// (the boundary on a circle by arc length, as in the paper)
+    /// Map from which a minimisation starts: auto, circle
+    ///
+    /// auto: the free map if the energy has lengths or areas, otherwise the circle. circle: the boundary on a circle by
+    /// arc length, as in the paper.
     #[arg(long, default_value = "auto", value_parser = by_name::<Start>, help_heading = "Solver")]
     pub(super) start: Start,
-    /// Weights of the energies: integral (converge under refinement), unit (the paper's)
+    /// Weights of the energies: integral, unit
+    ///
+    /// integral: energies converge under refinement of the mesh. unit: the weights of the paper.
     #[arg(long, default_value = "integral", value_parser = by_name::<Weight>, help_heading = "Energy")]
     pub(super) weight: Weight,
-    /// Dual point of triangle meshes
+    /// Dual point of the faces of a triangle mesh
     #[arg(long, default_value = "barycentre", value_parser = PossibleValuesParser::new(DUAL_POINTS.iter().map(|d| d.name())), help_heading = "Quad graph")]
     pub(super) dual: String,
     /// Dual vertex of boundary edges: midpoint, foot (of the perpendicular from the dual point)
     #[arg(long, default_value = "midpoint", value_parser = by_name::<BoundaryDual>, help_heading = "Quad graph")]
     pub(super) boundary_dual: BoundaryDual,
-    /// Quad meshes and digital surfaces: take ρ from normals estimated by NAME, with parameters as in "hat?radius=4"; see
-    /// `riemap list` [default: digital surfaces auto; meshes none]
+    /// Estimator of the normals from which ρ of quads is computed [default: digital surfaces auto; meshes none]
+    ///
+    /// Parameters follow the name, as in "hat?radius=4"; `riemap list` describes the estimators.
     #[arg(long, value_name = "NAME", value_parser = NormalSpec::from_str, conflicts_with = "rho", help_heading = "Quad graph")]
     pub(super) normals: Option<NormalSpec>,
-    /// With normals: rest lengths and areas projected on the tangent planes, or those of the surfels (unit)
+    /// Lengths and areas at rest beside --normals: projected (on the tangent planes), unit (those of the surfels)
     #[arg(long, default_value = "projected", value_parser = by_name::<RestSource>, help_heading = "Quad graph")]
     pub(super) rest: RestSource,
-    /// What ρ of quad meshes comes from: positions, normals (those of the file, as they are), auto (positions; of digital
-    /// surfaces normals that are estimated)
+    /// Source of ρ of quads: auto, positions, normals
+    ///
+    /// positions: the diagonals in space. normals: the diagonals projected along the normals of the file. auto:
+    /// positions for meshes, estimated normals for digital surfaces.
     #[arg(long, default_value = "auto", value_parser = by_name::<RhoSource>, help_heading = "Quad graph")]
     pub(super) rho: RhoSource,
-    /// Backend; see `riemap list`
-    #[arg(long, default_value = "auto", value_parser = PossibleValuesParser::new(solver_names()), help_heading = "Solver")]
+    /// Solver; `riemap list` describes them
+    #[arg(long, hide_possible_values = true, default_value = "auto", value_parser = PossibleValuesParser::new(solver_names()), help_heading = "Solver")]
     pub(super) solver: String,
-    /// Nonlinear maps: converged when the energy's gradient is at most T times that of the start [default: 1e-10]
+    /// Stop an iteration when the gradient is at most T times that of the start [default: 1e-10]
     #[arg(long, value_name = "T", value_parser = tolerance, help_heading = "Solver")]
     pub(super) tolerance: Option<f64>,
-    /// Nonlinear maps: stop after N iterations and write what is reached [default: the solver's own number]
+    /// Stop an iteration after N steps [default: the solver's own number]
+    ///
+    /// The map reached by then is written, a warning says that it has not converged, and the exit code is 3.
     #[arg(long, value_name = "N", help_heading = "Solver")]
     pub(super) max_iterations: Option<usize>,
-    /// Write energy, its terms, gradient, step and seconds of every iteration as CSV
+    /// Write the energy, its terms, the gradient, the step and the time of every iteration as CSV
     #[arg(long, value_name = "FILE.csv", help_heading = "Output")]
     pub(super) trace: Option<PathBuf>,
-    /// Periodic maps: what --output has. conformal: the map, periods 1 and τ; whole: sheared a little (5 % at most) so that
-    /// both periods are whole numbers and a repeating texture has no seam
+    /// Texture coordinates of a periodic map: conformal, whole
+    ///
+    /// conformal: those of the map, with the periods 1 and τ. whole: sheared slightly (by 5 % at most), so that both
+    /// periods are whole numbers and a texture that repeats has no seam.
     #[arg(long, default_value = "conformal", value_parser = by_name::<Tiling>, help_heading = "Output")]
     pub(super) tiling: Tiling,
-    /// Write system (2) as a complex matrix in Matrix Market format
+    /// Write the linear system (2) as a complex matrix in Matrix Market format
     #[arg(long, value_name = "FILE.mtx", help_heading = "Output")]
     pub(super) system: Option<PathBuf>,
-    /// Write all figures of the run as JSON
+    /// Write energies, times and distortion as JSON; `riemap help report` lists the fields
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     pub(super) report: Option<PathBuf>,
-    /// Draw the map, coloured by quasi-conformal error (.png, .svg)
+    /// Draw the map, coloured by quasi-conformal distortion (.png, .svg)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(super) picture: Option<PathBuf>,
-    /// Draw the surface, shaded, with the checkerboard that the map lays on it
+    /// Draw the surface, shaded, with the checkerboard of the map
     #[arg(long, value_name = "FILE.png", help_heading = "Output")]
     pub(super) texture: Option<PathBuf>,
-    /// What an interrupted map leaves behind: keep (files that exist stay as they are, nothing is written), write (the
-    /// best map so far is written)
-    #[arg(long, value_name = "WHICH", default_value = "keep", value_enum, help_heading = "Solver")]
+    /// Outputs of a map that a signal stops: keep (existing files stay, nothing is written), write (the best map so far)
+    #[arg(
+        long,
+        value_name = "WHICH",
+        default_value = "keep",
+        value_enum,
+        hide_possible_values = true,
+        help_heading = "Solver"
+    )]
     pub(super) on_interrupt: OnInterrupt,
-    /// Print warnings and errors alone
+    /// Print only warnings and errors
     #[arg(short, long, help_heading = "Output")]
     pub(super) quiet: bool,
 }
 
-/// What happens to the outputs of a map that a signal stops.
+/// Outputs of a map that a signal stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum OnInterrupt {
     /// Nothing is written.
@@ -158,109 +195,68 @@ pub(super) enum OnInterrupt {
 }
 
 impl Arguments {
-    /// The files to be written.
+    /// Returns the files to be written.
     pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
         [&self.output, &self.system, &self.report, &self.picture, &self.texture, &self.trace]
             .into_iter()
             .flatten()
             .map(PathBuf::as_path)
     }
+
+    /// Returns the arguments as options of the library, after reading the files that they name.
+    pub(super) fn options(&self) -> Result<MapOptions> {
+        let positions = match &self.positions {
+            None => None,
+            Some(path) => {
+                let pins = read_positions(path)?.into_iter().map(|(vertex, place)| Pin { vertex, place });
+                Some(pins.collect())
+            }
+        };
+        let flat = FlatOptions {
+            cut: self.cut,
+            fill_holes: self.fill_holes,
+            remove_faces: self.remove_face.clone(),
+            surrogate: self.surrogate,
+            boundary: self.boundary,
+            energy: self.energy.clone(),
+            fix: self.fix.map(usize::from),
+            keep_order: self.keep_order,
+            start: self.start,
+            tolerance: self.tolerance,
+            max_iterations: self.max_iterations,
+            shape: self.shape,
+            positions,
+            boundary_lengths: self.boundary_lengths.as_deref().map(read_boundary_lengths).transpose()?,
+            pins: self.pin.clone(),
+            hold: self.hold,
+            weights: self.weights.clone(),
+            valid: self.valid.unwrap_or_default(),
+            weight: self.weight,
+            dual: Some(self.dual.clone()),
+            boundary_dual: self.boundary_dual,
+            rho: self.rho,
+            normals: self.normals.clone(),
+            rest: self.rest,
+            solver: Some(self.solver.clone()),
+        };
+        let options = MapOptions::try_from(flat).map_err(MapError::from)?;
+        if self.trace.is_some() && is_linear(&options) {
+            bail!("--trace is for nonlinear maps, and this one is solved directly: leave it out");
+        }
+        Ok(options)
+    }
 }
 
-/// Whether one linear solve makes the map.
-fn is_linear(options: &MapOptions) -> bool {
+/// Whether the map is the solution of one linear system.
+pub(super) fn is_linear(options: &MapOptions) -> bool {
     options.boundary == Boundary::Periodic
         || options.boundary.is_fixed() && options.expression().terms.iter().all(|term| term.name == "H")
-}
-
-/// Options that were given and change nothing, each with the reason.
-pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped: &Mapped) -> Vec<&'static str> {
-    let (triangles, opening) = (mapped.domain.is_of_triangles(), &mapped.cut);
-    let circle = options.expression().has("C") && !options.boundary.is_fixed();
-    let linear = is_linear(options);
-    let idle = [
-        (arguments.boundary == Some(BoundaryName::Free) && circle, "--boundary free has no effect: the energy has C"),
-        (
-            arguments.boundary == Some(BoundaryName::Circle) && !circle,
-            "--boundary circle has no effect: the energy has no C",
-        ),
-        (arguments.fix.is_some() && !circle, "--fix has no effect: this is no circle map"),
-        (arguments.fix.is_some() && circle && !options.pins.is_empty(), "--fix has no effect: pins take its place"),
-        (arguments.tolerance.is_some() && linear, "--tolerance has no effect: the map is solved directly"),
-        (arguments.max_iterations.is_some() && linear, "--max-iterations has no effect: the map is solved directly"),
-        (options.dual != "barycentre" && !triangles, "--dual has no effect on a quad mesh"),
-        (
-            options.boundary_dual != BoundaryDual::default() && !triangles,
-            "--boundary-dual has no effect on a quad mesh",
-        ),
-        (
-            options.cut && opening.cut_edges == 0 && opening.vertices_split == 0,
-            "--cut has no effect: the surface is a disc",
-        ),
-        (
-            options.surrogate.is_some() && mapped.domain.disc.surrogates.faces.is_empty(),
-            "--surrogate has no effect: every face has an area",
-        ),
-        (options.fill_holes && opening.holes_filled == 0, "--fill-holes has no effect: there is no hole to be filled"),
-        (
-            options.rest != RestSource::default() && mapped.domain.planes.is_none(),
-            "--rest has no effect: ρ is not taken from normals",
-        ),
-        (
-            arguments.tiling != Tiling::default() && mapped.torus.is_none(),
-            "--tiling has no effect: the map has no periods",
-        ),
-        (
-            arguments.tiling != Tiling::default() && arguments.output.as_deref().is_some_and(is_glb),
-            "--tiling has no effect on .glb: its checkerboard has the periods already",
-        ),
-    ];
-    let of_valid = valid_without_effect(arguments, options, mapped.map.provenance.is_repaired());
-    idle.into_iter().chain(of_valid).filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()
 }
 
 /// Parses the height of a surrogate.
 fn height(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|h| *h > 0.0 && *h <= 1.0);
     number.ok_or_else(|| "expected a number above 0, at most 1".to_owned())
-}
-
-/// What of this concerns valid maps: where none is promised, and what one that is in the place of the plain map does not see.
-fn valid_without_effect(arguments: &Arguments, options: &MapOptions, repaired: bool) -> [(bool, &'static str); 8] {
-    let given = arguments.valid.is_some_and(|valid| valid != ValidName::Off);
-    let one_to_one = arguments.valid == Some(ValidName::OneToOne);
-    let repaired = repaired && options.weights().is_none();
-    [
-        (
-            given && options.energy.is_some(),
-            "--valid has no effect: the map is the minimum of --energy, and checked alone",
-        ),
-        (given && !options.pins.is_empty(), "--valid has no effect beside pins: the map is checked alone"),
-        (
-            given && options.boundary_lengths().is_some(),
-            "--valid has no effect beside --boundary-lengths: the map is checked alone",
-        ),
-        (
-            given && options.boundary.is_fixed() && options.weights().is_none(),
-            "--valid has no effect on a fixed boundary without --weights: the map is checked alone",
-        ),
-        (
-            given && options.boundary == Boundary::Periodic,
-            "--valid has no effect: nothing takes the place of a map with periods, which is checked alone",
-        ),
-        (
-            one_to_one && options.boundary.is_circle() && options.promises_valid(),
-            "--valid one-to-one says no more than auto here: circle maps do not overlap",
-        ),
-        (
-            repaired && options.is_ordered(),
-            "--keep-order has no effect: the map in the place of the plain one is in order by itself",
-        ),
-        (
-            repaired && options.solver != "auto",
-            "--solver has no effect on the map in the place of the plain one: it is Newton's",
-        ),
-    ]
 }
 
 /// Parses a tolerance.
@@ -278,47 +274,4 @@ fn pin(text: &str) -> Result<Pin, String> {
         Some(Pin { vertex: vertex.trim().parse().ok()?, place: [number(x)?, number(y)?] })
     };
     parse().ok_or_else(|| "expected V=X,Y with a vertex index from 0 and two finite numbers".to_owned())
-}
-
-/// What the arguments ask of the library.
-pub(super) fn options(arguments: &Arguments) -> Result<MapOptions> {
-    let positions = match &arguments.positions {
-        None => None,
-        Some(path) => {
-            let pins = read_positions(path)?.into_iter().map(|(vertex, place)| Pin { vertex, place });
-            Some(pins.collect())
-        }
-    };
-    let flat = FlatOptions {
-        cut: arguments.cut,
-        fill_holes: arguments.fill_holes,
-        remove_faces: arguments.remove_face.clone(),
-        surrogate: arguments.surrogate,
-        boundary: arguments.boundary,
-        energy: arguments.energy.clone(),
-        fix: arguments.fix.map(usize::from),
-        keep_order: arguments.keep_order,
-        start: arguments.start,
-        tolerance: arguments.tolerance,
-        max_iterations: arguments.max_iterations,
-        shape: arguments.shape,
-        positions,
-        boundary_lengths: arguments.boundary_lengths.as_deref().map(read_boundary_lengths).transpose()?,
-        pins: arguments.pin.clone(),
-        hold: arguments.hold,
-        weights: arguments.weights.clone(),
-        valid: arguments.valid.unwrap_or_default(),
-        weight: arguments.weight,
-        dual: Some(arguments.dual.clone()),
-        boundary_dual: arguments.boundary_dual,
-        rho: arguments.rho,
-        normals: arguments.normals.clone(),
-        rest: arguments.rest,
-        solver: Some(arguments.solver.clone()),
-    };
-    let options = MapOptions::try_from(flat).map_err(MapError::from)?;
-    if arguments.trace.is_some() && is_linear(&options) {
-        bail!("--trace is for nonlinear maps, and this one is solved directly: leave it out");
-    }
-    Ok(options)
 }

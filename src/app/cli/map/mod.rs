@@ -1,9 +1,11 @@
-//! `riemap map`.
+//! `riemap map`: reads or generates a surface, maps it, and writes the outputs.
 
 mod arguments;
+mod idle;
 mod output;
 mod summary;
 mod validity;
+mod written;
 
 use std::io::Write;
 
@@ -19,26 +21,30 @@ use crate::solver::Status;
 use super::progress::Progress;
 use super::{Ended, interrupt};
 pub use arguments::Arguments;
-use arguments::{OnInterrupt, options, without_effect};
+use arguments::OnInterrupt;
+use idle::without_effect;
 use output::{draw, refuse_outputs, write_all};
 use summary::{print, warn};
+use written::WrittenReport;
 
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
-    // What cannot be written is refused before anything is computed.
+    // Outputs that cannot be written are refused before anything is computed.
     refuse_outputs(arguments)?;
-    let options = options(arguments)?;
+    let options = arguments.options()?;
 
     let watch = if arguments.trace.is_some() { Stopwatch::tracing() } else { Stopwatch::start() };
     let mut progress = Progress::new(watch, arguments.quiet);
     let input = arguments.source.open()?;
-    let mapped = map::map_input(&input, &options, &mut progress);
-    progress.clear();
-    let mapped = mapped.with_context(|| input.source.clone())?;
-    let interrupted = mapped.map.ending == Ending::Minimised(Status::Interrupted);
-    if interrupted && arguments.on_interrupt == OnInterrupt::Keep {
-        let signal = interrupt::name();
-        return Err(Ended::BySignal(format!("{signal}; nothing was written (--on-interrupt write)")).into());
-    }
+    let mapped = match interrupt::requested() {
+        true => None,
+        false => Some(map::map_input(&input, &options, &mut progress)),
+    };
+    progress.end();
+    let mapped = match mapped {
+        Some(Ok(mapped)) if !interrupt::requested() || arguments.on_interrupt == OnInterrupt::Write => mapped,
+        Some(Err(error)) if !interrupt::requested() => return Err(error).with_context(|| input.source.clone()),
+        _ => return Err(Ended::BySignal(format!("{}; nothing was written", interrupt::name())).into()),
+    };
     let record = Report::new(&input, &mapped, progress.watch.cost());
 
     for finding in &mapped.findings {
@@ -49,7 +55,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     }
     warn(&options, &mapped);
     let pictures = draw(arguments, &input, &mapped, &record)?;
-    write_all(arguments, &input, &mapped, &record, &pictures, progress.watch.trace())?;
+    write_all(arguments, &input, &mapped, &WrittenReport::new(&record, &options), &pictures, progress.watch.trace())?;
     if !arguments.quiet {
         print(out, &record)?;
         if let (Some(periods), Tiling::Whole) = (&record.periods, arguments.tiling) {
@@ -61,14 +67,12 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
             writeln!(out, "wrote {}", path.display())?;
         }
     }
-    match mapped.map.ending {
-        Ending::Minimised(Status::Interrupted) => {
-            Err(Ended::BySignal(format!("{}; the best map so far was written", interrupt::name())).into())
-        }
-        // Without a limit of the user's an unconverged map is an error of the library.
-        Ending::Minimised(Status::MaxIterations) if arguments.max_iterations.is_some() => {
-            Err(Ended::AtLimit { iterations: mapped.map.iterations }.into())
-        }
-        _ => Ok(()),
+    if interrupt::requested() {
+        return Err(Ended::BySignal(format!("{}; the best map so far was written", interrupt::name())).into());
     }
+    // Without --max-iterations the library returns an error instead of a map that has not converged.
+    if mapped.map.ending == Ending::Minimised(Status::MaxIterations) && arguments.max_iterations.is_some() {
+        return Err(Ended::AtLimit { iterations: mapped.map.iterations }.into());
+    }
+    Ok(())
 }

@@ -1,8 +1,9 @@
+//! The files that `riemap map` writes.
+
 use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use serde::Serialize;
 
 use crate::app::experiment::{Checkerboard, checkerboard, flat_map, stage_model};
 use crate::app::measure::stopwatch::Traced;
@@ -17,8 +18,9 @@ use crate::surface::oriented_mesh::OrientedMesh;
 
 use super::arguments::Arguments;
 use super::validity::{faults, of_written};
+use super::written::WrittenReport;
 
-/// The pictures asked for, each with the file it is for.
+/// Draws the pictures that were asked for, and returns each with its file.
 pub(super) fn draw<'a>(
     arguments: &'a Arguments,
     input: &Input,
@@ -37,7 +39,7 @@ pub(super) fn draw<'a>(
     Ok(pictures)
 }
 
-/// Fails where an output cannot be written, or two are to be written to one place.
+/// Refuses outputs that cannot be written, and two outputs with one name.
 pub(super) fn refuse_outputs(arguments: &Arguments) -> Result<()> {
     if let Some(path) = &arguments.output {
         writable(path)?;
@@ -48,7 +50,7 @@ pub(super) fn refuse_outputs(arguments: &Arguments) -> Result<()> {
     if let Some(path) = &arguments.texture
         && !matches!(Format::from_path(path), Ok(Format::Png))
     {
-        bail!("{} is no .png, and a shaded surface is drawn in pixels alone: name it .png", path.display());
+        bail!("{}: a shaded surface can only be written as .png", path.display());
     }
     let outputs: Vec<&Path> = arguments.outputs().collect();
     for (k, &path) in outputs.iter().enumerate() {
@@ -60,26 +62,12 @@ pub(super) fn refuse_outputs(arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
-/// The report as `--report` writes it.
-#[derive(Serialize)]
-struct WrittenReport<'a> {
-    riemap: Program,
-    #[serde(flatten)]
-    report: &'a Report,
-}
-
-/// The program that made a report.
-#[derive(Serialize)]
-struct Program {
-    version: &'static str,
-}
-
-/// Writes all outputs, or none.
+/// Writes all outputs, or none of them.
 pub(super) fn write_all(
     arguments: &Arguments,
     input: &Input,
     mapped: &Mapped,
-    record: &Report,
+    report: &WrittenReport,
     pictures: &[(&Path, Vec<u8>)],
     trace: &[Traced],
 ) -> Result<()> {
@@ -93,12 +81,11 @@ pub(super) fn write_all(
         staged.push(stage_mesh(path, &input.surface, input.vertex_text.as_ref(), Some(texture.uv()))?);
     }
     if let Some(path) = &arguments.system {
-        let comments = system_comments(record, disc, map);
+        let comments = system_comments(&input.source, disc, map);
         staged.push(stage(path, |out| write_matrix_market(out, &system(graph), &comments))?);
     }
     if let Some(path) = &arguments.report {
-        let program = Program { version: env!("CARGO_PKG_VERSION") };
-        let json = serde_json::to_string_pretty(&WrittenReport { riemap: program, report: record })?;
+        let json = serde_json::to_string_pretty(report)?;
         staged.push(stage(path, |out| writeln!(out, "{json}"))?);
     }
     for (path, bytes) in pictures {
@@ -113,7 +100,8 @@ pub(super) fn write_all(
     Ok(())
 }
 
-/// Says where the map is one-to-one and what is written of it is not. Texture coordinates of discs are the map's own doubles.
+/// Warns if a periodic map is injective and its texture coordinates as written are not. Those of other maps are the
+/// doubles of the map itself.
 fn warn_of_written(path: &Path, input: &Input, mapped: &Mapped, texture: &TextureCoordinates) {
     if mapped.torus.is_none() || !mapped.validity.is_one_to_one() {
         return;
@@ -124,13 +112,10 @@ fn warn_of_written(path: &Path, input: &Input, mapped: &Mapped, texture: &Textur
     }
 }
 
-/// What the rows and columns are, and the constraints that make the solution unique.
-fn system_comments(record: &Report, disc: &OrientedMesh, map: &Map) -> Vec<String> {
+/// Describes the rows and columns of the system, and the constraints that make its solution unique.
+fn system_comments(source: &str, disc: &OrientedMesh, map: &Map) -> Vec<String> {
     let mut comments = vec![
-        format!(
-            "system (2) of {}: z3 - z1 - i rho (z2 - z0) = 0, one row per quad, one column per vertex",
-            record.input.path
-        ),
+        format!("system (2) of {source}: z3 - z1 - i rho (z2 - z0) = 0, one row per quad, one column per vertex"),
         format!(
             "columns 1 to {} are the vertices of the mesh that faces use, the others dual vertices",
             disc.positions.len()
@@ -141,7 +126,7 @@ fn system_comments(record: &Report, disc: &OrientedMesh, map: &Map) -> Vec<Strin
     comments
 }
 
-/// One line per iteration; a nonlinear map may have several stages, each from iteration 0.
+/// Writes one line per iteration. A map may have several stages, each of which begins with iteration 0.
 fn write_trace(out: &mut dyn Write, trace: &[Traced]) -> std::io::Result<()> {
     let mut names: Vec<&str> = Vec::new();
     for name in trace.iter().flat_map(|t| t.iteration.terms.iter().map(|(name, _)| *name)) {

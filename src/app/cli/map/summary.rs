@@ -1,3 +1,5 @@
+//! The summary of a map on the standard output, and warnings on the standard error stream.
+
 use std::io::Write;
 
 use anyhow::Result;
@@ -10,7 +12,8 @@ use crate::solver::Status;
 use super::validity::faults;
 use crate::app::cli::plural;
 
-/// Says on the standard error stream where the map is not one-to-one, and what may help.
+/// Writes warnings and notes about the map to the standard error stream: non-convergence, replaced maps, faults, and
+/// the options that may help.
 pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
     let Mapped { map, distortion, validity, .. } = mapped;
     if options.pinned_points() == PinnedPoints::Two
@@ -19,26 +22,29 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         && map.smallest_singular_value.is_some()
     {
         eprintln!(
-            "riemap: warning: two fixed points leave a circle map (nearly) free to move: the smallest singular value is \
-             {:.1e}; --fix 3 makes it unique",
+            "riemap: warning: two pinned points determine a circle map badly or not at all: the smallest singular value \
+             is {:.1e}; --fix 3 makes it unique",
             map.smallest_singular_value.unwrap_or_default()
         );
     }
     match map.ending {
         Ending::Minimised(Status::MaxIterations) => {
             eprintln!(
-                "riemap: warning: not converged after {} iterations; the map is the best reached{}",
+                "riemap: warning: not converged after {} iterations; the map of lowest energy so far is taken{}",
                 map.iterations,
                 crowding(mapped).map(|why| format!(": {why}")).unwrap_or_default()
             );
         }
         Ending::Minimised(Status::Interrupted) => {
-            eprintln!("riemap: warning: interrupted after {} iterations; the map is the best reached", map.iterations);
+            eprintln!(
+                "riemap: warning: interrupted after {} iterations; the map of lowest energy so far is taken",
+                map.iterations
+            );
         }
         Ending::Minimised(status) if map.provenance.is_repaired() => {
             let at_the_end = distortion.smallest_scale.is_some_and(|scale| scale < END_OF_DOUBLES);
             if let Some(why) = crowding(mapped).filter(|_| at_the_end || status == Status::Precision) {
-                eprintln!("riemap: warning: rounding keeps the map from coming nearer to the conformal one: {why}");
+                eprintln!("riemap: warning: rounding limits how conformal the map can become: {why}");
             }
         }
         _ => {}
@@ -47,16 +53,16 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         let was = match map.provenance.flipped() {
             None => "did not converge".to_owned(),
             Some(0) => "had a boundary that crosses itself".to_owned(),
-            Some(n) => format!("had {}", plural(n, "folded face", "folded faces")),
+            Some(n) => format!("had {}", plural(n, "flipped face", "flipped faces")),
         };
         eprintln!(
-            "riemap: note: the plain map {was}, and a valid one is in its place (--valid off keeps the plain one)"
+            "riemap: note: the conformal map {was} and was replaced by one that passes the exact check; --valid off keeps it"
         );
     }
-    if let Some(Replacement::LessDistorted { mean: shear }) = map.provenance.replaced.map(|replaced| replaced.by) {
+    if let Some(Replacement::LessDistorted { mean }) = map.provenance.replaced.map(|replaced| replaced.by) {
         eprintln!(
-            "riemap: note: the plain map had σ₁/σ₂ {shear:.3} in the mean, and one of less shear is in its place (--valid off keeps the \
-             plain one)"
+            "riemap: note: the conformal map had a mean σ₁/σ₂ of {mean:.3} and was replaced by one of less distortion; --valid \
+             off keeps it"
         );
     }
     if map.provenance.is_repaired()
@@ -65,8 +71,8 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         && map.fixed.len() < options.pinned_points().count()
     {
         eprintln!(
-            "riemap: note: one boundary point is where it was to be, and not {}: a map with these in their places has parts that \
-             are too small for double precision",
+            "riemap: note: one boundary point is pinned instead of {}: with all of them, parts of the map would be too small \
+             for double precision",
             options.pinned_points().count()
         );
     }
@@ -100,25 +106,27 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
     }
 }
 
-/// Scales that differ by more than this keep a minimisation from its end, or make it long.
+/// A minimisation converges slowly or not at all if the scales of its parts differ by more than this.
 const CROWDED: f64 = 1e-6;
 
-/// With parts of this scale beside the largest places are not told apart any more, but near 0; a minimisation seems to end there.
+/// Relative scale below which double precision no longer resolves the vertices of a part, except near 0, so that a
+/// minimisation appears to have converged.
 const END_OF_DOUBLES: f64 = 1e-13;
 
-/// Where parts of a map are much smaller than others, how much, and what to do.
+/// Explains that parts of a map are much smaller than others, and what helps; `None` if they are not.
 fn crowding(mapped: &Mapped) -> Option<String> {
     let smallest = mapped.distortion.smallest_scale.filter(|&scale| scale < CROWDED)?;
     let help = match mapped.map.on_circle {
-        true => "--boundary free crowds them less",
-        false => "a longer boundary, by a cut through what is crowded, does not",
+        true => "--boundary free shrinks them less",
+        false => "a longer boundary, from a cut through these parts, shrinks them less",
     };
     Some(format!(
-        "the scale of its smallest parts is {smallest:.1e} of that of its largest, and doubles end near 1e-16; {help}"
+        "its smallest parts are drawn at {smallest:.1e} of the scale of its largest, and double precision ends near \
+         1e-16; {help}"
     ))
 }
 
-/// The summary of a run.
+/// Prints the summary of a map.
 pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     let Report { input, quad_graph, solver, distortion, .. } = record;
     let (vertices, faces) = (plural(input.vertices, "vertex", "vertices"), plural(input.faces, "face", "faces"));
@@ -217,7 +225,7 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
         )?;
     }
     let simple = if distortion.boundary_crosses { "crosses itself" } else { "is simple" };
-    let one_to_one = if solver.valid { "; one-to-one by the exact check" } else { "" };
+    let one_to_one = if solver.valid { "; injective by the exact check" } else { "" };
     writeln!(out, "{} flipped; the boundary {simple}{one_to_one}", plural(distortion.flipped, "face", "faces"))?;
     Ok(())
 }
