@@ -79,6 +79,27 @@ fn a_map_that_is_not_the_same_is_told_apart() {
     assert!(!compare(&ours, &libigl).unwrap().is_equal(), "the boundary has moved and the inside has not");
 }
 
+#[test]
+fn verify_prints_json_with_a_member_for_every_mesh() {
+    environment();
+    let run = |meshes: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_riemap"));
+        let output = command.args(["verify", "--json"]).args(meshes).output().unwrap();
+        (output.status.code(), serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap())
+    };
+    let (code, value) = run(&[SURFACES[0]]);
+    let row = &value["meshes"][0];
+    assert_eq!((code, &row["equal"], &row["mesh"]), (Some(0), &true.into(), &SURFACES[0].into()));
+    assert!(row["difference"].as_f64().is_some_and(|d| d <= TOLERANCE) && value["libigl"].is_string());
+    // A mesh that cannot be compared does not hide the others.
+    let (code, value) = run(&["plane?n=4", SURFACES[0]]);
+    assert_eq!(
+        (code, &value["meshes"][0]["equal"], &value["meshes"][1]["equal"]),
+        (Some(1), &false.into(), &true.into())
+    );
+    assert!(value["meshes"][0]["error"].as_str().is_some_and(|error| error.contains("triangle")));
+}
+
 /// The folder of public meshes, where there is one.
 fn data() -> Option<PathBuf> {
     data_folders(std::env::var_os("RIEMAP_DATA")).into_iter().find(|folder| folder.is_dir())
