@@ -1,15 +1,15 @@
-/// Why arrays are not a surface.
+/// Arrays do not describe a surface.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SurfaceError {
-    /// A face with fewer than three corners.
+    /// A face has fewer than three corners.
     #[error("face {face} has {corners} corners; a face has at least three (faces count from 0)")]
     TooFewCorners {
         /// The face.
         face: usize,
-        /// Its number of corners.
+        /// Number of its corners.
         corners: usize,
     },
-    /// A vertex index out of range.
+    /// A vertex index is out of range.
     #[error("face {face} has the vertex {vertex}, and there are {vertices} vertices (they count from 0)")]
     NoSuchVertex {
         /// The face.
@@ -19,19 +19,19 @@ pub enum SurfaceError {
         /// Number of vertices.
         vertices: usize,
     },
-    /// More vertices than 32-bit indices can count.
+    /// There are more vertices than 32-bit indices can number.
     #[error("{vertices} vertices are more than 32-bit indices can count")]
     TooManyVertices {
         /// Number of vertices.
         vertices: usize,
     },
-    /// More corners than 32-bit indices can count.
+    /// There are more corners than 32-bit indices can number.
     #[error("the faces up to face {face} have more corners than 32-bit indices can count")]
     TooManyCorners {
-        /// The face that is one too many.
+        /// The first face that does not fit.
         face: usize,
     },
-    /// Another number of normals than of faces.
+    /// The number of normals is not the number of faces.
     #[error("there are {normals} normals for {faces} faces; give one for each face")]
     NormalCount {
         /// Number of normals.
