@@ -1,4 +1,4 @@
-//! The affine maps of triangles, and functions of them.
+//! The affine maps of triangles and functions of them.
 
 use num_complex::Complex64;
 
@@ -8,7 +8,11 @@ use crate::geometry::predicate::orientation;
 use crate::quad_graph::RestTriangle;
 use crate::sparse::Stencils;
 
-/// The derivatives of a density f with respect to A = |a|² and B = |b|²; those of second order times what makes them ones along a and b.
+/// The derivatives of a density f with respect to A = |a|² and B = |b|².
+///
+/// Those of second order are multiplied by the factors that make them second derivatives with
+/// respect to
+/// a| and |b|.
 #[derive(Clone, Copy, Debug)]
 pub struct Derivatives {
     /// ∂f/∂A.
@@ -23,14 +27,15 @@ pub struct Derivatives {
     pub bb: f64,
 }
 
-/// The triangles of a mesh, or of the corners of its quads.
+/// The triangles of a mesh, or of the corners of its quads, prepared for the evaluation of
+/// densities.
 pub struct Triangles {
     vertices: Stencils,
     pieces: Vec<Piece>,
 }
 
 impl Triangles {
-    /// Those of the rest metric, for the energy of that name.
+    /// Makes the triangles of the rest metric for the energy with the given name.
     ///
     /// # Errors
     /// A triangle without area at rest.
@@ -46,7 +51,7 @@ impl Triangles {
         })
     }
 
-    /// Each of them, with the places of its corners.
+    /// Iterates over the triangles with the positions of their corners.
     pub(super) fn at<'a>(&'a self, z: &'a [Complex64]) -> impl Iterator<Item = (&'a Piece, [Complex64; 3])> + 'a {
         self.pieces.iter().enumerate().map(move |(e, piece)| {
             let v = self.vertices.get(e);
@@ -54,7 +59,7 @@ impl Triangles {
         })
     }
 
-    /// Adds what is given for the corners of each triangle to their vertices.
+    /// Adds values at the corners of each triangle to their vertices.
     pub(super) fn scatter(&self, of_corners: impl Iterator<Item = [Complex64; 3]>, to: &mut [Complex64]) {
         for (e, corners) in of_corners.enumerate() {
             for (&v, g) in self.vertices.get(e).iter().zip(corners) {
@@ -63,23 +68,26 @@ impl Triangles {
         }
     }
 
-    /// Their vertices.
+    /// The vertices of each triangle.
     pub(super) fn stencils(&self) -> Stencils {
         self.vertices.clone()
     }
 
-    /// |a|² + |b|² of each, twice the ratio of its Dirichlet energy to its area.
+    /// a|² + |b|² of each triangle, twice the ratio of its Dirichlet energy to its area at rest.
     pub fn stretch(&self, z: &[Complex64]) -> Vec<f64> {
         self.at(z).map(|(piece, corners)| piece.map_of_any(corners).stretch()).collect()
     }
 
-    /// J of each.
+    /// J = |a|² − |b|² of each triangle, the ratio of its signed area to its area at rest.
     pub fn area_ratios(&self, z: &[Complex64]) -> Vec<f64> {
         self.at(z).map(|(piece, corners)| piece.map_of_any(corners).j).collect()
     }
 }
 
-/// A triangle at rest. With the edge v0 → v1 as 0 → ℓ and v2 at wℓ: `b = c (w e1 − e2)`, `a = c (e2 − w̄ e1)`, e1 = z1 − z0, e2 = z2 − z0.
+/// A triangle at rest.
+///
+/// In coordinates in which the edge v0 → v1 is 0 → ℓ and v2 is wℓ, `b = c (w e1 − e2)` and `a = c
+/// (e2 − w̄ e1)` with e1 = z1 − z0, e2 = z2 − z0.
 #[derive(Clone, Copy)]
 pub(super) struct Piece {
     w: Complex64,
@@ -90,7 +98,7 @@ pub(super) struct Piece {
     pub weight: f64,
 }
 
-/// The affine map `z ↦ a z + b z̄` of a triangle, and J = |a|² − |b|².
+/// The affine map `z ↦ a z + b z̄` of a triangle and J = |a|² − |b|².
 pub(super) struct Local {
     pub a: Complex64,
     pub b: Complex64,
@@ -117,35 +125,37 @@ impl Piece {
         }
     }
 
-    /// `None` where the triangle is not positively oriented.
+    /// Returns the affine map, or `None` if the triangle is not positively oriented.
     pub fn map(&self, corners: [Complex64; 3]) -> Option<Local> {
         let local = self.map_of_any(corners);
         let [z0, z1, z2] = corners;
-        // A triangle so flat that its area is lost in rounding has no derivatives, whatever its sign.
+        // If the area is lost in rounding, there are no derivatives, whatever the exact sign is.
         (local.j > 0.0 && orientation(z0, z1, z2) > 0.0).then_some(local)
     }
 
-    /// The map, whatever its orientation.
+    /// Returns the affine map, whatever its orientation.
     pub fn map_of_any(&self, [z0, z1, z2]: [Complex64; 3]) -> Local {
         let (e1, e2) = (z1 - z0, z2 - z0);
         let j = (e1.conj() * e2).im * self.per_area;
         Local { a: self.c * (e2 - self.w.conj() * e1), b: self.c * (self.w * e1 - e2), j }
     }
 
-    /// ∂a/∂z and ∂b/∂z of the three vertices.
+    /// ∂a/∂z and ∂b/∂z for the three vertices.
     fn coefficients(&self) -> ([Complex64; 3], [Complex64; 3]) {
         let (w, c) = (self.w, self.c);
         ([c * (w.conj() - 1.0), -w.conj() * c, c], [c * (1.0 - w), w * c, -c])
     }
 
-    /// The gradient of `t × weight × f` for the three vertices, ∂/∂x + i ∂/∂y.
+    /// The gradient ∂/∂x + i ∂/∂y of `t × weight × f` for the three vertices.
     pub fn gradient(&self, t: f64, at: &Local, d: &Derivatives) -> [Complex64; 3] {
         let (alpha, beta) = self.coefficients();
         let (along_a, along_b) = (2.0 * t * self.weight * d.a * at.a, 2.0 * t * self.weight * d.b * at.b);
         [0, 1, 2].map(|k| alpha[k].conj() * along_a + beta[k].conj() * along_b)
     }
 
-    /// The second derivatives of `weight × f`. In directions along a, across a, along b and across b those of f are
+    /// The second derivatives of `weight × f`.
+    ///
+    /// In directions along a, across a, along b and across b the second derivatives of f are
     ///
     /// ```text
     /// ⎡ 2 f_A + 4 A f_AA     ·       4 √(AB) f_AB       ·   ⎤
@@ -154,7 +164,7 @@ impl Piece {
     /// ⎣         ·            ·             ·          2 f_B ⎦
     /// ```
     ///
-    /// so that their positive part is known in closed form.
+    /// so their positive part is known in closed form.
     pub fn block(&self, at: &Local, d: &Derivatives, curvature: Curvature) -> Block {
         let mut along = [2.0 * d.a + 4.0 * d.aa, 4.0 * d.ab, 2.0 * d.b + 4.0 * d.bb];
         let mut across = [2.0 * d.a, 2.0 * d.b];
@@ -164,7 +174,7 @@ impl Piece {
         }
         let (alpha, beta) = self.coefficients();
         let (turn_a, turn_b) = (direction(at.a).conj(), direction(at.b).conj());
-        // The derivatives of the parts of a and b along and across themselves.
+        // The derivatives of the components of a and b along and across themselves.
         let (mut rows, p, q) = ([[0.0; 6]; 4], alpha.map(|x| turn_a * x), beta.map(|x| turn_b * x));
         for k in 0..3 {
             (rows[0][2 * k], rows[0][2 * k + 1]) = (p[k].re, -p[k].im);
@@ -185,13 +195,13 @@ impl Piece {
     }
 }
 
-/// z/|z|; 1 where there is no direction.
+/// z/|z|, or 1 if that is undefined.
 fn direction(z: Complex64) -> Complex64 {
     let length = z.norm();
     if length > 0.0 && length.is_finite() { z / length } else { Complex64::ONE }
 }
 
-/// The symmetric matrix `[p, q; q, s]`, given as p, q, s, without its negative eigenvalues.
+/// Returns the symmetric matrix `[p, q; q, s]`, given as p, q, s, without its negative eigenvalues.
 fn positive_part([p, q, s]: [f64; 3]) -> [f64; 3] {
     let (middle, radius) = (0.5 * (p + s), (0.5 * (p - s)).hypot(q));
     let (low, high) = (middle - radius, middle + radius);
@@ -212,7 +222,7 @@ mod tests {
         assert_eq!(positive_part([3.0, 0.0, -1.0]), [3.0, 0.0, 0.0]);
         assert_eq!(positive_part([2.0, 1.0, 2.0]), [2.0, 1.0, 2.0]);
         assert_eq!(positive_part([-2.0, 1.0, -2.0]), [0.0; 3]);
-        // Eigenvalues ±1 along (1, 1) and (1, −1).
+        // The eigenvalues are ±1 along (1, 1) and (1, −1).
         assert_eq!(positive_part([0.0, 1.0, 0.0]), [0.5, 0.5, 0.5]);
     }
 }

@@ -4,10 +4,11 @@ use super::conformal::{NonPositiveRho, Weight, weights};
 use super::{Block, LocalMap, Polynomial, Rest, SquareSum};
 use crate::sparse::Stencils;
 
-/// A, the authalic energy: `A = Σ w (m² − k²)²` with `m = Im(conj(z2 − z0)(z3 − z1))`, twice the signed area of a quad.
+/// The authalic energy A: `A = Σ w (m² − k²)²` with `m = Im(conj(z2 − z0)(z3 − z1))`, twice the
+/// signed area of a quad.
 ///
-/// Unit weights: w = 1 and k = |(v3−v0)×(v2−v0)| + |(v2−v0)×(v1−v0)| at rest. Integral: `A = Σ area ((m/2 area)² − 1)²`,
-/// that is `k = 2 area` and `w = area/k⁴`.
+/// Unit weights: w = 1 and k = |(v3−v0)×(v2−v0)| + |(v2−v0)×(v1−v0)| at rest. Integral weights: `A
+/// = Σ area ((m/2 area)² − 1)²`, that is, `k = 2 area` and `w = area/k⁴`.
 pub struct Authalic {
     quads: Stencils,
     rest: Vec<f64>,
@@ -15,10 +16,10 @@ pub struct Authalic {
 }
 
 impl Authalic {
-    /// A of the quads of the graph.
+    /// Makes A of the quads of the graph.
     ///
     /// # Errors
-    /// Integral weights where some Re ρ ≤ 0.
+    /// [`NonPositiveRho`] with integral weights.
     pub fn new(rest: Rest) -> Result<Self, NonPositiveRho> {
         let Rest { graph, metric, weight, .. } = rest;
         weights(graph, weight)?;
@@ -33,17 +34,17 @@ impl Authalic {
     }
 }
 
-/// `Im(conj(a) b)`, the signed area of the parallelogram of a and b.
+/// `Im(conj(a) b)`, the signed area of the parallelogram spanned by a and b.
 fn cross(a: Complex64, b: Complex64) -> f64 {
     (a.conj() * b).im
 }
 
-/// ∇m: with `m = a × b`, a = z2 − z0, b = z3 − z1, the gradient for a is −ib, for b it is ia.
+/// ∇m: with `m = a × b`, a = z2 − z0, b = z3 − z1, the gradient for a is −ib and for b it is ia.
 fn gradient(a: Complex64, b: Complex64) -> [f64; 8] {
     [-b.im, b.re, a.im, -a.re, b.im, -b.re, -a.im, a.re]
 }
 
-/// ∇²m, constant: the entries that are not 0, as (row, column, sign) above the diagonal.
+/// The non-zero entries of ∇²m, which is constant, as (row, column, sign) above the diagonal.
 const SECOND: [(usize, usize, f64); 8] =
     [(0, 3, 1.0), (0, 7, -1.0), (1, 2, -1.0), (1, 6, 1.0), (2, 5, 1.0), (3, 4, -1.0), (4, 7, 1.0), (5, 6, -1.0)];
 

@@ -6,15 +6,17 @@ use super::conformal::Weight;
 use super::{Block, LocalMap, Polynomial, Rest, SquareSum};
 use crate::sparse::Stencils;
 
-/// C, the circle energy: `C = Σ w (|z|² − 1)²` over the boundary vertices that are not held; w = 1, or 2π ℓ/P with ℓ
-/// half the length of the adjacent boundary edges, P the perimeter.
+/// The circle energy C: `C = Σ w (|z|² − 1)²` over the boundary vertices that are not pinned.
+///
+/// Unit weights: w = 1. Integral weights: w = 2π ℓ/P, where ℓ is half the length of the adjacent
+/// boundary edges and P the perimeter.
 pub struct Circle {
     vertices: Stencils,
     root_weight: Vec<f64>,
 }
 
 impl Circle {
-    /// C of the boundary of the graph.
+    /// Makes C of the boundary of the graph.
     pub fn new(rest: Rest) -> Self {
         let graph = rest.graph;
         let n = graph.boundary.len();

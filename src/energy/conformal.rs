@@ -1,4 +1,4 @@
-//! H, the conformal energy: `H = Σ_quads w |z3 − z1 − iρ(z2 − z0)|²`.
+//! The conformal energy H: `H = Σ_quads w |z3 − z1 − iρ(z2 − z0)|²`.
 
 use num_complex::Complex64;
 
@@ -6,21 +6,22 @@ use super::{Block, LocalMap, Polynomial, Rest, SquareSum};
 use crate::quad_graph::QuadGraph;
 use crate::sparse::Stencils;
 
-/// How the quads are weighted.
+/// The weights of quads and other pieces in the energies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Weight {
-    /// `w = 1 / (4 Re ρ)`: H = 2 ∫ |∂̄z|², Dirichlet energy minus area; converges under refinement.
+    /// `w = 1 / (4 Re ρ)`: H = 2 ∫ |∂̄z|², the Dirichlet energy minus the area; converges under
+    /// refinement.
     #[default]
     Integral,
-    /// `w = 1`, the paper's.
+    /// `w = 1`, as in the paper.
     Unit,
 }
 
-/// Integral weights are undefined or negative on a quad.
+/// Integral weights are undefined or negative on some quads.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "quad {quad}, of the vertices {vertices:?} of the quad graph, has Re ρ = {re_rho:e}, and {count} in all are not \
+    "quad {quad}, with vertices {vertices:?} of the quad graph, has Re ρ = {re_rho:e}, and {count} in all are not \
      positive: integral weights are not defined there"
 )]
 pub struct NonPositiveRho {
@@ -30,14 +31,14 @@ pub struct NonPositiveRho {
     pub vertices: [u32; 4],
     /// Its Re ρ.
     pub re_rho: f64,
-    /// How many there are.
+    /// Number of such quads.
     pub count: usize,
 }
 
-/// The weight of every quad (`nf`).
+/// Returns the weight of every quad (`nf`).
 ///
 /// # Errors
-/// Integral weights where some Re ρ ≤ 0.
+/// [`NonPositiveRho`] for integral weights if some Re ρ ≤ 0.
 pub fn weights(graph: &QuadGraph, weight: Weight) -> Result<Vec<f64>, NonPositiveRho> {
     match weight {
         Weight::Unit => Ok(vec![1.0; graph.rho.len()]),
@@ -56,28 +57,29 @@ pub fn weights(graph: &QuadGraph, weight: Weight) -> Result<Vec<f64>, NonPositiv
     }
 }
 
-/// The residual of (2), `r = z3 − z1 − iρ(z2 − z0)`, on quad `q`.
+/// The residual `r = z3 − z1 − iρ(z2 − z0)` of equation (2) on quad `q`.
 pub fn residual(graph: &QuadGraph, q: usize, z: &[Complex64]) -> Complex64 {
     residual_at(graph.rho[q], graph.quads[q].map(|v| z[v as usize]))
 }
 
-/// The residual of (2) where the corners of the quad are at `z0, z1, z2, z3`.
+/// The residual of equation (2) for a quad with corners at `z0, z1, z2, z3`.
 pub fn residual_at(rho: Complex64, [z0, z1, z2, z3]: [Complex64; 4]) -> Complex64 {
     z3 - z1 - Complex64::I * rho * (z2 - z0)
 }
 
-/// `H = Σ w |r|²`.
+/// The value `H = Σ w |r|²`.
 pub fn value(graph: &QuadGraph, w: &[f64], z: &[Complex64]) -> f64 {
     (0..w.len()).map(|q| w[q] * residual(graph, q, z).norm_sqr()).sum()
 }
 
-/// `Aᴴ W A z` (`nv`), which is ∂H/∂z̄: half the gradient of H, ∂H/∂x + i ∂H/∂y = 2 Aᴴ W A z.
+/// Returns `Aᴴ W A z` (`nv`), which is ∂H/∂z̄, half of the gradient ∂H/∂x + i ∂H/∂y.
 pub fn normal_product(graph: &QuadGraph, w: &[f64], z: &[Complex64]) -> Vec<Complex64> {
     normal_product_at(graph, w, |q| graph.quads[q].map(|v| z[v as usize]))
 }
 
-/// `Aᴴ W r` (`nv`) with r the residuals where quad `q` has its corners at `corners(q)`: [`normal_product`] of maps that
-/// are several-valued on the vertices.
+/// Returns `Aᴴ W r` (`nv`), where r are the residuals of quads `q` with corners at `corners(q)`.
+///
+/// This is [`normal_product`] for maps that are multivalued at the vertices.
 pub fn normal_product_at(graph: &QuadGraph, w: &[f64], corners: impl Fn(usize) -> [Complex64; 4]) -> Vec<Complex64> {
     let mut product = vec![Complex64::ZERO; graph.vertices];
     for (q, &w) in w.iter().enumerate() {
@@ -89,12 +91,13 @@ pub fn normal_product_at(graph: &QuadGraph, w: &[f64], corners: impl Fn(usize) -
     product
 }
 
-/// `|Aᴴ| W |A| |z|` (`nv`): the size of the terms that [`normal_product`] adds up, and so of its rounding error.
+/// Returns `|Aᴴ| W |A| |z|` (`nv`), the size of the terms in the sums of [`normal_product`], and
+/// hence of its rounding error.
 pub fn normal_product_scale(graph: &QuadGraph, w: &[f64], z: &[Complex64]) -> Vec<f64> {
     normal_product_scale_at(graph, w, |q| graph.quads[q].map(|v| z[v as usize]))
 }
 
-/// The same for [`normal_product_at`].
+/// Returns the size of the terms in the sums of [`normal_product_at`].
 pub fn normal_product_scale_at(graph: &QuadGraph, w: &[f64], corners: impl Fn(usize) -> [Complex64; 4]) -> Vec<f64> {
     let mut scale = vec![0.0; graph.vertices];
     for (q, &w) in w.iter().enumerate() {
@@ -107,19 +110,20 @@ pub fn normal_product_scale_at(graph: &QuadGraph, w: &[f64], corners: impl Fn(us
     scale
 }
 
-/// The row of (2) for a quad: the coefficients of z0, z1, z2, z3 in `z3 − z1 − iρ(z2 − z0)`.
+/// The row of system (2) for a quad: the coefficients of z0, z1, z2, z3 in `z3 − z1 − iρ(z2 − z0)`.
 pub fn row(rho: Complex64) -> [Complex64; 4] {
     let i_rho = Complex64::I * rho;
     [i_rho, -Complex64::ONE, -i_rho, Complex64::ONE]
 }
 
-/// The quad's block of `Aᴴ W A` (Hermitian, 4 × 4): `w āᵢ aⱼ` with a the [`row`].
+/// The Hermitian 4 × 4 block `w āᵢ aⱼ` of a quad in `Aᴴ W A`, where a is its [`row`].
 pub fn block(rho: Complex64, w: f64) -> [[Complex64; 4]; 4] {
     let a = row(rho);
     a.map(|ai| a.map(|aj| w * ai.conj() * aj))
 }
 
-/// H as an energy among others: two residuals a quad, the parts of `√w r`.
+/// H as an [`Energy`](super::Energy): two residuals per quad, the real and imaginary part of `√w
+/// r`.
 pub struct Conformal {
     quads: Stencils,
     rho: Vec<Complex64>,
@@ -127,10 +131,10 @@ pub struct Conformal {
 }
 
 impl Conformal {
-    /// H of the quads of the graph.
+    /// Makes H of the quads of the graph.
     ///
     /// # Errors
-    /// Integral weights where some Re ρ ≤ 0.
+    /// [`NonPositiveRho`] with integral weights.
     pub fn new(rest: Rest) -> Result<Self, NonPositiveRho> {
         let root_weight = weights(rest.graph, rest.weight)?.into_iter().map(f64::sqrt).collect();
         Ok(Conformal { quads: Stencils::new(&rest.graph.quads), rho: rest.graph.rho.clone(), root_weight })
@@ -183,8 +187,10 @@ impl SquareSum for Conformal {
     }
 }
 
-/// The Dirichlet part of H, `Σ w (|z3 − z1|² + |ρ|² |z2 − z0|² + 2 Im ρ (z3 − z1)·(z2 − z0))`: H without the area, the
-/// matrix D of `Aᴴ W A = D + iK`. Not a term of maps, but the natural measure of a change of one: `2 ∫ |∇δz|²`.
+/// The Dirichlet part of H: `Σ w (|z3 − z1|² + |ρ|² |z2 − z0|² + 2 Im ρ (z3 − z1)·(z2 − z0))`.
+///
+/// This is H without the area term, the matrix D of `Aᴴ W A = D + iK`. It is not a term of the
+/// energy but the natural norm of a change of the map: `2 ∫ |∇δz|²`.
 pub struct Dirichlet {
     quads: Stencils,
     rho: Vec<Complex64>,
@@ -192,7 +198,7 @@ pub struct Dirichlet {
 }
 
 impl Dirichlet {
-    /// Of the quads of the graph; with unit weights where integral ones are undefined.
+    /// Makes it from the quads of the graph, with unit weights if integral ones are undefined.
     pub fn new(graph: &QuadGraph, weight: Weight) -> Self {
         let weight = weights(graph, weight).unwrap_or_else(|_| vec![1.0; graph.quads.len()]);
         Dirichlet { quads: Stencils::new(&graph.quads), rho: graph.rho.clone(), weight }
@@ -203,7 +209,7 @@ impl Dirichlet {
         &self.quads
     }
 
-    /// Second derivatives of a piece.
+    /// The second derivatives of a piece.
     pub fn block(&self, e: usize) -> Block {
         let hermitian = block(self.rho[e], self.weight[e]);
         let mut real = [[0.0; 8]; 8];

@@ -3,21 +3,21 @@ use super::conformal::NonPositiveRho;
 /// An energy is not defined on a surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EnergyError {
-    /// Integral weights that are undefined.
+    /// Integral weights are undefined.
     #[error(transparent)]
     NonPositiveRho(#[from] NonPositiveRho),
-    /// A triangle without shape.
+    /// Some triangles have no area at rest.
     #[error(
         "{energy} is not defined at face {face}, which has no area at rest (quads: at one of its corners), nor at {} more: move or \
          remove a vertex",
         count - 1
     )]
     NoArea {
-        /// The energy.
+        /// Name of the energy.
         energy: &'static str,
-        /// The first such face, as the source numbers them.
+        /// The first such face, as an index of the source.
         face: u32,
-        /// Triangles without area, corners of quads one by one.
+        /// Number of triangles without area, where corners of quads count individually.
         count: usize,
     },
 }

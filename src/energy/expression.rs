@@ -5,38 +5,38 @@ use serde::{Deserialize, Deserializer};
 
 use super::{ENERGIES, Row, energy};
 
-/// A sum of energies with coefficients, as `H + 0.5 L + A`.
+/// A sum of energies with coefficients, such as `H + 0.5 L + A`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// The terms in the order given, no energy twice.
+    /// The terms in the given order; no energy occurs twice.
     pub terms: Vec<Term>,
 }
 
 /// A coefficient and an energy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// ≥ 0.
+    /// The coefficient, ≥ 0.
     pub coefficient: f64,
     /// Name of the energy.
     pub name: &'static str,
 }
 
-/// Not an expression.
+/// A text is not an expression.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExpressionError {
-    /// A name of no energy.
+    /// No energy has this name.
     #[error("unknown energy `{name}`; known: {}", ENERGIES.iter().map(|e| e.name).collect::<Vec<_>>().join(", "))]
     Unknown {
         /// The name.
         name: String,
     },
-    /// A term of another form.
-    #[error("`{term}` is no term; expected a name, or a coefficient and a name, as in `H + 0.5 L`")]
+    /// A term is malformed.
+    #[error("`{term}` is not a term; expected a name, or a coefficient and a name, as in `H + 0.5 L`")]
     Term {
         /// The term.
         term: String,
     },
-    /// A negative or infinite coefficient.
+    /// A coefficient is negative or not finite.
     #[error("the coefficient of {name} is {coefficient}; it must be finite and not negative")]
     Coefficient {
         /// The energy.
@@ -44,7 +44,7 @@ pub enum ExpressionError {
         /// Its coefficient.
         coefficient: f64,
     },
-    /// An energy that occurs twice.
+    /// An energy occurs twice.
     #[error("{name} occurs twice")]
     Twice {
         /// The energy.
@@ -53,7 +53,7 @@ pub enum ExpressionError {
 }
 
 impl Expression {
-    /// The sum of the energies of these names.
+    /// Returns the sum of the energies with these names, all with coefficient 1.
     pub fn of(names: &[&'static str]) -> Self {
         Expression { terms: names.iter().map(|&name| Term { coefficient: 1.0, name }).collect() }
     }
@@ -63,12 +63,12 @@ impl Expression {
         self.terms.iter().any(|t| t.name == name && t.coefficient > 0.0)
     }
 
-    /// Whether it is +∞ where a face is flipped.
+    /// Whether the sum is +∞ for maps with flipped faces.
     pub fn is_flip_free(&self) -> bool {
         self.rows().any(|row| row.flip_free)
     }
 
-    /// The rows of the energies that occur with positive coefficients.
+    /// The table entries of the energies with positive coefficients.
     pub fn rows(&self) -> impl Iterator<Item = &'static Row> + '_ {
         self.terms.iter().filter(|t| t.coefficient > 0.0).filter_map(|t| energy(t.name))
     }
@@ -99,7 +99,7 @@ impl FromStr for Expression {
     }
 }
 
-/// Whether the letter is that of an exponent, as in 1e-3: an `e` between digits or a sign.
+/// Whether the letter belongs to an exponent, as in 1e-3: an `e` between digits or before a sign.
 fn is_exponent(part: &str, letter: char) -> bool {
     let Some(at) = part.find(letter) else { return false };
     let (before, after) = (&part[..at], &part[at + letter.len_utf8()..]);

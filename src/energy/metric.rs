@@ -6,10 +6,10 @@ use super::conformal::{NonPositiveRho, Weight, weights};
 use super::{Block, LocalMap, Polynomial, Rest, SquareSum};
 use crate::sparse::Stencils;
 
-/// L and L', the metric energies: `Σ w (|zi − zj|² − l²)²` over edges of rest length l.
+/// The metric energies L and L': `Σ w (|zi − zj|² − l²)²` over edges with rest lengths l.
 ///
-/// Unit weights: w = 1. Integral: L has `w = area/l⁴` with half the area of the adjacent quads; L' has `w = (P/2π) l/l⁴`,
-/// P the perimeter.
+/// Unit weights: w = 1. Integral weights: `w = area/l⁴` for L, where area is half the area of the
+/// adjacent quads, and `w = (P/2π) l/l⁴` for L', where P is the perimeter.
 pub struct Metric {
     name: &'static str,
     edges: Stencils,
@@ -18,19 +18,19 @@ pub struct Metric {
 }
 
 impl Metric {
-    /// L, over all edges of the quad graph.
+    /// Makes L, over all edges of the quad graph.
     ///
     /// # Errors
-    /// Integral weights where some Re ρ ≤ 0.
+    /// [`NonPositiveRho`] with integral weights.
     pub fn all_edges(rest: Rest) -> Result<Self, NonPositiveRho> {
-        // The areas are positive where Re ρ is.
+        // The areas are positive if Re ρ is.
         weights(rest.graph, rest.weight)?;
         let metric = rest.metric;
         let pieces = metric.edges.iter().zip(&metric.length).zip(&metric.area);
         Ok(Self::new("L", rest.weight, pieces.map(|((&edge, &length), &area)| (edge, length, area))))
     }
 
-    /// L', over the boundary edges.
+    /// Makes L', over the boundary edges of the quad graph.
     pub fn boundary_edges(rest: Rest) -> Self {
         let graph = rest.graph;
         let n = graph.boundary.len();
@@ -42,7 +42,8 @@ impl Metric {
         Self::new("Lb", rest.weight, edges)
     }
 
-    /// L', over the boundary edges of the mesh itself, which on triangles are two of the quad graph's each.
+    /// Makes L' over the boundary edges of the mesh; on triangle meshes each consists of two edges
+    /// of the quad graph.
     pub fn mesh_boundary_edges(rest: Rest) -> Self {
         let graph = rest.graph;
         let n = graph.boundary.len();
@@ -56,7 +57,7 @@ impl Metric {
         Self::new("Lb", rest.weight, edges)
     }
 
-    /// L' over some edges of these lengths, of a boundary of that length in all.
+    /// Makes L' over some edges with given lengths, on a boundary of the given perimeter.
     pub fn of_boundary_edges(edges: &[[u32; 2]], lengths: &[f64], perimeter: f64, weight: Weight) -> Self {
         let radius = perimeter / TAU;
         let pieces = edges.iter().zip(lengths).map(|(&edge, &length)| (edge, length, radius * length));

@@ -1,11 +1,13 @@
 use super::Derivatives;
 use super::triangle_sum::{Density, TriangleSum};
 
-/// The density of MIPS, `f = 2|b|²/(|a|² − |b|²) = ½(σ1/σ2 + σ2/σ1) − 1`: 0 where the triangle keeps its shape, the same under similarities
-/// (Hormann, Greiner, *MIPS: an efficient global parametrization method*, 2000).
+/// The density of MIPS: `f = 2|b|²/(|a|² − |b|²) = ½(σ1/σ2 + σ2/σ1) − 1`.
+///
+/// It is 0 if the triangle keeps its shape and is invariant under similarities (Hormann, Greiner,
+/// *MIPS: an efficient global parametrization method*, 2000).
 pub struct MipsDensity;
 
-/// MIPS, `Σ w 2|b|²/(|a|² − |b|²)`.
+/// MIPS: `Σ w 2|b|²/(|a|² − |b|²)`.
 pub type Mips = TriangleSum<MipsDensity>;
 
 impl Density for MipsDensity {
@@ -15,7 +17,8 @@ impl Density for MipsDensity {
         2.0 * (b / j)
     }
 
-    // As quotients of what is of one size: J² leaves the range of doubles where parts of a map are of the size 1e-100.
+    // Written as quotients of numbers of similar size: J² underflows where parts of a map have size
+    // 1e-100.
     fn derivatives(a: f64, b: f64, j: f64) -> Derivatives {
         let (p, q) = (a / j, b / j);
         Derivatives {

@@ -1,8 +1,9 @@
-//! The energies of a map, `E = α H + β C + δ A + γ L + γ' L'`, and those of maps without folds. A new one is one file and one row
-//! of [`ENERGIES`].
+//! The energies of a map, `E = α H + β C + δ A + γ L + γ' L'`, and the energies MIPS and SD of maps
+//! without flipped faces. A new energy is one file and one entry of [`ENERGIES`].
 //!
-//! Most are sums of squares of residuals, each a polynomial of a few vertices: they implement [`SquareSum`], and have
-//! value, gradient, both Hessians and the exact polynomial along a line from it. MIPS and SD are sums of a [`Density`] over triangles.
+//! Most are sums of squares of residuals, each a polynomial of the values at a few vertices. They
+//! implement [`SquareSum`], which gives value, gradient, both Hessians and the exact polynomial
+//! along a line. MIPS and SD are sums of a [`Density`] over triangles.
 
 mod affine;
 mod authalic;
@@ -41,34 +42,36 @@ use crate::quad_graph::metric::RestMetric;
 use crate::sparse::Stencils;
 use conformal::Weight;
 
-/// Second derivatives of a piece with respect to (Re z, Im z) of its vertices, one behind the other; rows and columns
-/// past twice its number of vertices are 0.
+/// The second derivatives of a piece with respect to (Re z, Im z) of its vertices in turn. Rows and
+/// columns beyond twice its number of vertices are 0.
 pub type Block = [[f64; 8]; 8];
 
-/// Which second derivatives are meant.
+/// The choice of second derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Curvature {
-    /// A positive semi-definite model of them: of squares `2 Jᵀ J`, right where the residuals vanish; of others that are not convex
-    /// all of them, without the negative eigenvalues of each piece.
+    /// A positive semi-definite model: `2 Jᵀ J` for sums of squares, which is exact where the
+    /// residuals vanish; for other energies the exact ones without the negative eigenvalues of each
+    /// piece.
     GaussNewton,
-    /// All of them.
+    /// The exact second derivatives.
     Exact,
 }
 
 /// A function of a map z (`nv` complex values) that is a sum over pieces of at most four vertices.
 pub trait Energy: Sync {
-    /// Its name in expressions: H, C, A, L, Lb, MIPS, SD.
+    /// The name in expressions: H, C, A, L, Lb, MIPS, SD.
     fn name(&self) -> &'static str;
 
-    /// E(z); +∞ where z is not admitted.
+    /// The value E(z); +∞ if z is not admissible.
     fn value(&self, z: &[Complex64]) -> f64;
 
     /// Adds `t (∂E/∂x + i ∂E/∂y)` at z to `gradient` (`nv`).
     fn add_gradient(&self, t: f64, z: &[Complex64], gradient: &mut [Complex64]);
 
-    /// Adds `t Σ_k 2 r_k″ ∇r_k` at z to `gradient`, r″ the second derivatives of the residuals along d: what bends the
-    /// path of steps that keep the residuals small. Nothing where there are no residuals.
+    /// Adds `t Σ_k 2 r_k″ ∇r_k` at z to `gradient`, where r″ are the second derivatives of the
+    /// residuals along d: the term for geodesic acceleration. Adds nothing if there are no
+    /// residuals.
     fn add_bending(&self, t: f64, z: &[Complex64], d: &[Complex64], gradient: &mut [Complex64]);
 
     /// The vertices of each piece.
@@ -77,58 +80,60 @@ pub trait Energy: Sync {
     /// Calls `add(piece, block)` with the second derivatives of every piece at z.
     fn hessian(&self, z: &[Complex64], curvature: Curvature, add: &mut dyn FnMut(usize, &Block));
 
-    /// |J d|², J the derivatives of all residuals at z; `None` where there are no residuals. Summed from J d itself: where this is
-    /// small, dᵀ(JᵀJ)d is lost in rounding.
+    /// J d|², where J are the derivatives of all residuals at z; `None` if there are no residuals.
+    ///
+    /// It is summed from J d itself, because dᵀ(JᵀJ)d is lost in rounding where it is small.
     fn stretch(&self, _z: &[Complex64], _d: &[Complex64]) -> Option<f64> {
         None
     }
 
-    /// Number of squares it is a sum of; 0 where it is none.
+    /// Number of squares of which the energy is a sum; 0 if it is not a sum of squares.
     fn residual_count(&self) -> usize;
 
-    /// Whether the second derivatives are the same everywhere.
+    /// Whether the second derivatives are constant.
     fn is_quadratic(&self) -> bool {
         false
     }
 
-    /// The coefficients of `t ↦ E(z + t d)`, where that is a polynomial.
+    /// The coefficients of `t ↦ E(z + t d)`, if it is a polynomial.
     fn along(&self, z: &[Complex64], d: &[Complex64]) -> Option<Polynomial>;
 
-    /// How far one may go from z, where E is finite, along d before E is not: the supremum of the t up to which z + t d is admitted, but
-    /// for rounding. +∞ where all of the line is.
+    /// The largest step: the supremum, up to rounding, of the t up to which E(z + t d) is finite,
+    /// given that E(z) is; +∞ if there is no bound.
     fn largest_step(&self, _z: &[Complex64], _d: &[Complex64]) -> f64 {
         f64::INFINITY
     }
 }
 
-/// What an energy is made from.
+/// The rest geometry and settings from which energies are made.
 #[derive(Clone, Copy)]
 pub struct Rest<'a> {
-    /// Quads and ρ.
+    /// The quads and ρ.
     pub graph: &'a QuadGraph,
     /// Rest lengths and areas.
     pub metric: &'a RestMetric,
-    /// How the pieces are weighted.
+    /// The weights of the pieces.
     pub weight: Weight,
-    /// `held[v]`: the vertex does not move (`nv`).
+    /// For each vertex whether it is pinned (`nv`).
     pub held: &'a [bool],
 }
 
-/// An energy by name.
+/// An entry of the table of energies.
 pub struct Row {
-    /// Its name in expressions.
+    /// The name in expressions.
     pub name: &'static str,
-    /// One line for `riemap list`.
+    /// A description of one line.
     pub about: &'static str,
-    /// Whether it sees lengths or areas, and so fixes the scale of the map.
+    /// Whether it depends on lengths or areas and thus fixes the scale of the map.
     pub metric: bool,
-    /// Whether it is +∞ where a face is turned over: a minimisation must start from a map without folds.
+    /// Whether it is +∞ for maps with flipped faces; a minimisation must then start from a map
+    /// without any.
     pub flip_free: bool,
-    /// Makes it.
+    /// Makes the energy.
     pub make: fn(Rest) -> Result<Box<dyn Energy>, EnergyError>,
 }
 
-/// All energies.
+/// The table of all energies.
 pub static ENERGIES: &[Row] = &[
     Row {
         name: "H",
@@ -181,7 +186,7 @@ pub static ENERGIES: &[Row] = &[
     },
 ];
 
-/// The row of the energy of that name.
+/// Returns the table entry of the energy with this name.
 pub fn energy(name: &str) -> Option<&'static Row> {
     ENERGIES.iter().find(|row| row.name == name)
 }

@@ -1,21 +1,23 @@
-/// A polynomial of degree 8 at most, the coefficient of tᵏ at position k: an energy along a line.
+/// A polynomial of degree at most 8, used for an energy along a line; the coefficient of tᵏ is at
+/// index k.
 ///
-/// H, C and the metric energies are quartics along a line; A squares a squared area and has degree 8.
+/// H, C and the metric energies are quartic along a line; A squares a squared area and has degree
+/// 8.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Polynomial(pub [f64; 9]);
 
 impl Polynomial {
-    /// 0.
+    /// The zero polynomial.
     pub const ZERO: Polynomial = Polynomial([0.0; 9]);
 
-    /// `a + b t + c t²`
+    /// Returns `a + b t + c t²`.
     pub fn quadratic(a: f64, b: f64, c: f64) -> Self {
         let mut p = Self::ZERO;
         p.0[..3].copy_from_slice(&[a, b, c]);
         p
     }
 
-    /// Adds r², r of degree 4 at most.
+    /// Adds r², where r has degree at most 4.
     pub fn add_square(&mut self, r: &Polynomial) {
         for i in 0..5 {
             for j in 0..5 {
@@ -31,25 +33,25 @@ impl Polynomial {
         }
     }
 
-    /// t p
+    /// Returns `t p`.
     pub fn scaled(mut self, t: f64) -> Self {
         self.0.iter_mut().for_each(|a| *a *= t);
         self
     }
 
-    /// The square of a quadratic.
+    /// Returns the square; the degree must be at most 4.
     pub fn squared(&self) -> Self {
         let mut square = Self::ZERO;
         square.add_square(self);
         square
     }
 
-    /// p(t)
+    /// Returns p(t).
     pub fn at(&self, t: f64) -> f64 {
         self.0.iter().rev().fold(0.0, |sum, a| sum * t + a)
     }
 
-    /// p′
+    /// Returns the derivative p′.
     pub fn derivative(&self) -> Self {
         let mut d = Self::ZERO;
         for k in 1..9 {
@@ -58,8 +60,8 @@ impl Polynomial {
         d
     }
 
-    /// The place of the smallest value among t > 0 where the derivative vanishes from below; `None` where there is none.
-    /// Exact to rounding, however many minima there are.
+    /// Returns the t > 0 with the smallest value among those at which the derivative changes sign;
+    /// `None` if there are none. It is exact up to rounding, however many minima there are.
     pub fn minimum_ahead(&self) -> Option<f64> {
         let derivative = self.derivative();
         let bound = derivative.root_bound()?;
@@ -72,20 +74,20 @@ impl Polynomial {
         self.0.iter().rposition(|&a| a != 0.0).unwrap_or(0)
     }
 
-    /// Cauchy's bound: every root is smaller than 1 + max |aₖ/aₙ|; scaled, so that it is not far off.
+    /// Returns an upper bound on the absolute values of all roots.
     fn root_bound(&self) -> Option<f64> {
         let n = self.degree();
         if n == 0 {
             return None;
         }
-        // Fujiwara: 2 max |a_{n−k}/a_n|^{1/k}
+        // Fujiwara's bound: 2 max |a_{n−k}/a_n|^{1/k}.
         let ratio = |k: usize| (self.0[n - k] / self.0[n]).abs().powf(1.0 / k as f64);
         let bound = 2.0 * (1..=n).map(ratio).fold(0.0, f64::max);
         bound.is_finite().then_some(bound)
     }
 
-    /// The simple real roots in `a ..= b`, ascending: between neighbouring roots of the derivative the polynomial is
-    /// monotone, and a change of sign is bisected.
+    /// Returns the simple real roots in `a ..= b`, ascending. Between neighbouring roots of the
+    /// derivative the polynomial is monotone, and a change of sign is bisected.
     fn roots_between(&self, a: f64, b: f64) -> Vec<f64> {
         if self.degree() == 0 {
             return Vec::new();

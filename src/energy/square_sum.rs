@@ -4,13 +4,13 @@ use num_complex::Complex64;
 use super::{Block, Curvature, Energy, Polynomial};
 use crate::sparse::Stencils;
 
-/// The map at the vertices of one piece, in the order of its stencil; what is past them is 0.
+/// The map at the vertices of one piece, in the order of its stencil; unused entries are 0.
 pub type LocalMap = [Complex64; 4];
 
-/// `E = Σ_pieces r1² + r2²`, each residual a polynomial of the values at the piece's vertices (weights included as
-/// square roots). Pieces with one residual leave the second 0.
+/// An energy `E = Σ_pieces r1² + r2²` whose residuals are polynomials of the values at the piece's
+/// vertices, weights being included as square roots. Pieces with one residual have r2 = 0.
 pub trait SquareSum: Sync {
-    /// Name in expressions.
+    /// The name in expressions.
     fn name(&self) -> &'static str;
 
     /// The vertices of each piece.
@@ -24,10 +24,10 @@ pub trait SquareSum: Sync {
     /// The residuals of piece `e`.
     fn residuals(&self, e: usize, z: &LocalMap) -> [f64; 2];
 
-    /// Their derivatives with respect to (Re, Im) of each vertex.
+    /// The derivatives of the residuals with respect to (Re, Im) of each vertex.
     fn jacobian(&self, e: usize, z: &LocalMap) -> [[f64; 8]; 2];
 
-    /// `Σ_k r_k ∇²r_k`, or `None` where the residuals are linear.
+    /// Returns `Σ_k r_k ∇²r_k`, or `None` if the residuals are linear.
     fn curvature(&self, e: usize, z: &LocalMap) -> Option<Block>;
 
     /// The residuals of piece `e` along `t ↦ z + t d`, exactly.
@@ -47,7 +47,7 @@ fn local(stencil: &[u32], z: &[Complex64]) -> LocalMap {
     values
 }
 
-/// Adds the rows of a piece's Jacobian, times r, to a gradient.
+/// Adds the rows of a piece's Jacobian, multiplied by the residuals, to a gradient.
 fn add_rows(stencil: &[u32], [r, s]: [f64; 2], [j, k]: &[[f64; 8]; 2], gradient: &mut [Complex64]) {
     for (i, &v) in stencil.iter().enumerate() {
         let (re, im) = (2 * i, 2 * i + 1);
@@ -149,7 +149,8 @@ impl<S: SquareSum> Energy for S {
     }
 }
 
-/// The Jacobian of all residuals with respect to x = (Re z0, Im z0, Re z1, …) (`residuals × 2 nv`).
+/// Returns the Jacobian of all residuals with respect to x = (Re z0, Im z0, Re z1, …) (`residuals ×
+/// 2 nv`).
 pub fn jacobian(energy: &dyn SquareSum, z: &[Complex64]) -> CsrMatrix<f64> {
     let stencils = energy.stencils();
     let per_piece = energy.residuals_per_piece();

@@ -3,11 +3,14 @@ use num_complex::Complex64;
 use super::Derivatives;
 use super::triangle_sum::{Density, TriangleSum};
 
-/// The density of the symmetric Dirichlet energy, `f = σ1² + σ2² + σ1⁻² + σ2⁻² − 4 = 2(|a|² + |b|²)(1 + 1/(|a|² − |b|²)²) − 4`: 0 where the
-/// triangle keeps its lengths (Smith, Schaefer, *Bijective parameterization with free boundaries*, 2015; what SLIM minimises, but for the 4).
+/// The density of the symmetric Dirichlet energy: `f = σ1² + σ2² + σ1⁻² + σ2⁻² − 4 = 2(|a|² +
+/// |b|²)(1 + 1/(|a|² − |b|²)²) − 4`.
+///
+/// It is 0 if the triangle keeps its lengths (Smith, Schaefer, *Bijective parameterization with
+/// free boundaries*, 2015). SLIM minimises it without the constant.
 pub struct SymmetricDirichletDensity;
 
-/// SD, `Σ w (σ1² + σ2² + σ1⁻² + σ2⁻² − 4)`.
+/// SD: `Σ w (σ1² + σ2² + σ1⁻² + σ2⁻² − 4)`.
 pub type SymmetricDirichlet = TriangleSum<SymmetricDirichletDensity>;
 
 impl SymmetricDirichlet {
@@ -26,7 +29,7 @@ impl SymmetricDirichlet {
 impl Density for SymmetricDirichletDensity {
     const NAME: &'static str = "SD";
 
-    // 2(A + B) − 2J = 4B, and J + 1/J − 2 = (J − 1)²/J: nothing cancels near an isometry.
+    // 2(A + B) − 2J = 4B and J + 1/J − 2 = (J − 1)²/J: there is no cancellation near an isometry.
     fn value(_a: f64, b: f64, j: f64) -> f64 {
         // 2(A + B)(1 + J⁻²) − 4 = 4B(1 + J⁻²) + 2(J − 1)²/J
         4.0 * b * (1.0 + 1.0 / (j * j)) + 2.0 * (j - 1.0) * (j - 1.0) / j

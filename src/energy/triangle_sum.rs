@@ -1,4 +1,5 @@
-//! Energies of maps without folds: sums over the triangles of the mesh that are +∞ where one of them is turned over.
+//! Energies of maps without flipped faces: sums over triangles that are +∞ if a triangle is
+//! flipped.
 
 use num_complex::Complex64;
 
@@ -6,30 +7,30 @@ use super::affine::{Derivatives, Local, Triangles};
 use super::{Block, Curvature, Energy, EnergyError, Polynomial, Rest};
 use crate::sparse::Stencils;
 
-/// A density f(a, b) of distortion, of the affine map `z ↦ a z + b z̄` of a triangle through `A = |a|²` and `B = |b|²` alone, J = A − B > 0
-/// being the ratio of the areas.
+/// A density f of distortion that depends on the affine map `z ↦ a z + b z̄` of a triangle only
+/// through `A = |a|²` and `B = |b|²`; J = A − B > 0 is the ratio of the areas.
 pub trait Density: Sync {
-    /// Name in expressions.
+    /// The name in expressions.
     const NAME: &'static str;
 
-    /// f.
+    /// Returns f.
     fn value(a: f64, b: f64, j: f64) -> f64;
 
-    /// Its derivatives.
+    /// Returns the derivatives of f.
     fn derivatives(a: f64, b: f64, j: f64) -> Derivatives;
 }
 
-/// `Σ w f(a, b)` over the triangles of a mesh or of the corners of its quads, +∞ where one is not positively oriented by the exact
-/// predicate.
+/// The sum `Σ w f(a, b)` over the triangles of a mesh or of the corners of its quads; +∞ if one of
+/// them is not positively oriented, by the exact predicate.
 ///
-/// Unit weights: w = 1 for each face. Integral: w is the area at rest.
+/// Unit weights: w = 1 for each face. Integral weights: w is the area at rest.
 pub struct TriangleSum<D> {
     pub(super) triangles: Triangles,
     density: std::marker::PhantomData<D>,
 }
 
 impl<D: Density> TriangleSum<D> {
-    /// Over the triangles of the rest metric.
+    /// Makes the sum over the triangles of the rest metric.
     ///
     /// # Errors
     /// A triangle without area at rest.
@@ -52,7 +53,7 @@ impl<D: Density> Energy for TriangleSum<D> {
         if sum.is_nan() { f64::INFINITY } else { sum }
     }
 
-    /// NaN at the vertices of triangles that are turned over.
+    /// The gradient is NaN at the vertices of flipped triangles.
     fn add_gradient(&self, t: f64, z: &[Complex64], gradient: &mut [Complex64]) {
         let of_corners = self.triangles.at(z).map(|(piece, corners)| match piece.map(corners) {
             Some(at) => piece.gradient(t, &at, &D::derivatives(at.a.norm_sqr(), at.b.norm_sqr(), at.j)),
@@ -99,13 +100,13 @@ impl<D: Density> Energy for TriangleSum<D> {
     }
 }
 
-/// The smallest positive root of `c + b t + a t²`, c > 0; +∞ where there is none.
+/// Returns the smallest positive root of `c + b t + a t²`, where c > 0, or +∞.
 fn smallest_positive_root(c: f64, b: f64, a: f64) -> f64 {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 || (b >= 0.0 && a >= 0.0) {
         return f64::INFINITY;
     }
-    // 2c/(−b ± √…): of the two roots the one that is reached first, without cancellation where b < 0.
+    // 2c/(−b ± √…), the root that is reached first, without cancellation if b < 0.
     let root = discriminant.sqrt();
     let t = if b < 0.0 { 2.0 * c / (root - b) } else { (-b - root) / (2.0 * a) };
     if t > 0.0 { t } else { f64::INFINITY }
@@ -117,7 +118,7 @@ mod tests {
 
     #[test]
     fn the_first_root_ahead_is_found() {
-        // (1 − t)(1 − t/3), (1 − t)(1 + t), (1 + t)², 1 + t², 1 − 2t
+        // (1 − t)(1 − t/3), (1 − t)(1 + t), (1 + t)², 1 + t², 1 − 2t.
         for (c, b, a, root) in [
             (1.0, -4.0 / 3.0, 1.0 / 3.0, 1.0),
             (1.0, 0.0, -1.0, 1.0),

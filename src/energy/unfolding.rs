@@ -4,26 +4,30 @@ use super::affine::{Derivatives, Local, Triangles};
 use super::{Block, Curvature, Energy, EnergyError, Polynomial, Rest};
 use crate::sparse::Stencils;
 
-/// MIPS for maps that fold, `Σ w ((|a|² + |b|²)/χ(J) − 1)` with `χ(J) = ½(J + √(ε² + J²)) > 0` in the place of J = |a|² − |b|²: finite
-/// everywhere, the higher the more a triangle is turned over, and MIPS itself as ε goes to 0 (Garanzha et al., *Foldover-free maps in 50
-/// lines of code*, 2021). No energy of the table: it leads to a map without folds, and says nothing of the map.
+/// A modification of MIPS that is finite for flipped faces: `Σ w ((|a|² + |b|²)/χ(J) − 1)` with
+/// `χ(J) = ½(J + √(ε² + J²)) > 0` instead of J = |a|² − |b|².
+///
+/// The more a triangle is flipped, the larger is its term; as ε → 0 it becomes MIPS (Garanzha et
+/// al., *Foldover-free maps in 50 lines of code*, 2021). It is not in the table of energies,
+/// because it serves only to reach a map without flipped faces.
 pub struct Unfolding {
     triangles: Triangles,
-    /// ε of each.
+    /// The ε of each triangle.
     epsilon: Vec<f64>,
 }
 
 impl Unfolding {
-    /// The triangles of the rest metric.
+    /// Makes the triangles of the rest metric.
     ///
     /// # Errors
-    /// One without area at rest.
+    /// A triangle without area at rest.
     pub fn triangles(rest: Rest) -> Result<Triangles, EnergyError> {
         Triangles::new(rest, "MIPS")
     }
 
-    /// Over the triangles of the rest metric, ε that share of `scale`, the area of a triangle about where the map is to come to over its area
-    /// at rest.
+    /// Makes the sum over the triangles of the rest metric with ε = `share` × `scale`, where
+    /// `scale` is the approximate area that each triangle will have in the map, relative to its
+    /// area at rest.
     ///
     /// # Errors
     /// A triangle without area at rest.
@@ -31,11 +35,11 @@ impl Unfolding {
         Ok(Unfolding { triangles: Self::triangles(rest)?, epsilon: scale.iter().map(|s| share * s).collect() })
     }
 
-    /// χ and √(ε² + J²).
+    /// Returns χ and √(ε² + J²).
     fn chi(&self, e: usize, j: f64) -> (f64, f64) {
         let epsilon = self.epsilon[e];
         let root = epsilon.hypot(j);
-        // Without cancellation where J < 0.
+        // Avoids cancellation for J < 0.
         let chi = if j > 0.0 { 0.5 * (j + root) } else { 0.5 * epsilon * epsilon / (root - j) };
         (chi, root)
     }
@@ -43,7 +47,7 @@ impl Unfolding {
     fn derivatives(&self, e: usize, at: &Local) -> Derivatives {
         let (a, b) = (at.a.norm_sqr(), at.b.norm_sqr());
         let (chi, root) = self.chi(e, at.j);
-        // 1/χ, its derivatives, and those times |a|² + |b|².
+        // 1/χ and its derivatives, then these multiplied by |a|² + |b|².
         let g = 1.0 / chi;
         let slope = -g / root;
         let bend = 2.0 * g / (root * root) - 0.5 * (self.epsilon[e] * g / root).powi(2) / root;

@@ -9,28 +9,32 @@ use crate::geometry::polygon::boundary_crossing;
 use crate::quad_graph::QuadGraph;
 use crate::sparse::Stencils;
 
-/// A barrier that keeps the boundary off itself,
+/// A barrier that keeps the boundary from meeting itself:
 ///
 /// ```text
 /// Σ (r l)² max(0, ε/d − 1)³
 /// ```
 ///
-/// over the vertices of the mesh's boundary and its edges that are not at them, d their distance through the outside of the image; +∞ where
-/// the boundary meets itself, by an exact test. ε is a share r of the shortest of the edges at both in the map that it is made for, l the
-/// same at rest: where parts of a map are small so is what they keep clear.
+/// The sum is over pairs of a boundary vertex of the mesh and a boundary edge that does not contain
+/// it; d is their distance through the exterior of the image. The value is +∞ if the boundary meets
+/// itself, by an exact predicate. For each pair ε is a share r of the length of the shortest edge
+/// at both, measured in the map for which the barrier is made, and l is the same length at rest:
+/// small parts of a map need only small clearance.
 ///
-/// After Smith, Schaefer, *Bijective parameterization with free boundaries* (2015), who have a square in place of the cube, without second
-/// derivatives at ε, one ε for all, and distances through the inside, which triangles keep open by themselves.
+/// After Smith, Schaefer, *Bijective parameterization with free boundaries* (2015). They use a
+/// square instead of the cube, which has no second derivative at ε, a single ε, and also distances
+/// through the interior, which triangles keep positive anyway.
 ///
-/// Which pairs are near changes with the map. Value and gradient see all of them; the Hessian sees those that were nearer than 2ε in the
-/// map that it was made for: it is to be made anew after some steps. Not a sum of squares.
+/// The set of close pairs changes with the map. Value and gradient include all pairs. The Hessian
+/// includes those that were closer than 2ε in the map for which the barrier was made, so the
+/// barrier must be made anew after some steps. It is not a sum of squares.
 pub struct Clearance {
-    /// The boundary vertices of the mesh, counter-clockwise; edge k runs from vertex k to the next.
+    /// The boundary vertices of the mesh, counter-clockwise; edge k joins vertex k to the next.
     boundary: Vec<u32>,
-    /// What vertices and edges keep clear, and the same at rest.
+    /// The clearance of vertices and of edges.
     at_vertex: Vec<Reach>,
     at_edge: Vec<Reach>,
-    /// The pairs that the Hessian sees: positions of a vertex and of an edge.
+    /// The pairs in the Hessian: positions of a vertex and of an edge.
     pairs: Vec<[usize; 2]>,
     stencils: Stencils,
 }
@@ -47,13 +51,13 @@ impl Reach {
     }
 }
 
-/// What of the length of an edge is kept clear.
+/// The share of an edge's length that is kept clear.
 const SHARE: f64 = 0.25;
 
-/// So many times ε away the Hessian sees pairs.
+/// Pairs closer than this multiple of ε are included in the Hessian.
 const SEEN: f64 = 2.0;
 
-/// The derivatives of `max(0, ε/d − 1)³` with respect to d.
+/// `max(0, ε/d − 1)³` and its derivatives with respect to d.
 struct Barrier {
     value: f64,
     first: f64,
@@ -69,7 +73,7 @@ impl Barrier {
 }
 
 impl Clearance {
-    /// For maps near z, whose boundary is simple and counter-clockwise.
+    /// Makes the barrier for maps near z, whose boundary must be simple and counter-clockwise.
     pub fn new(graph: &QuadGraph, z: &[Complex64]) -> Self {
         let n = graph.boundary.len();
         let mesh: Vec<usize> = (0..n).filter(|&k| !graph.is_dual(graph.boundary[k])).collect();
@@ -107,7 +111,8 @@ impl Clearance {
         self.at_vertex[v].or_less(self.at_edge[k])
     }
 
-    /// Calls `found` with every pair that is nearer through the outside than `times` what it keeps clear.
+    /// Calls `found` with every pair whose distance through the exterior is less than `times` its
+    /// clearance.
     fn near(&self, z: &[Complex64], times: f64, found: &mut dyn FnMut([usize; 2], &PointEdge)) {
         let (at, n) = (self.places(z), self.boundary.len());
         let vertices: Vec<Bounds> =
@@ -122,7 +127,8 @@ impl Clearance {
         });
     }
 
-    /// How a vertex lies to an edge that is not at it, if it sees that through the outside.
+    /// Returns the position of a vertex relative to an edge that does not contain it, if the
+    /// nearest point is visible through the exterior.
     fn outside(&self, at: &[Complex64], [v, k]: [usize; 2]) -> Option<PointEdge> {
         let n = self.boundary.len();
         let [v, a, b] = self.corners(v, k);
@@ -133,7 +139,7 @@ impl Clearance {
         let sees = |corner: usize| {
             let [before, after] = [(corner + n - 1) % n, (corner + 1) % n];
             let from_next = |d: Complex64| (d / (at[after] - at[corner])).arg().rem_euclid(TAU);
-            // Of a neighbour the corner is as far as their edge is long.
+            // The nearest point to a neighbour of a corner is never that corner.
             v != before && v != after && from_next(place.direction()) > from_next(at[before] - at[corner])
         };
         let is_outside = match place.nearest {
@@ -178,7 +184,8 @@ impl Energy for Clearance {
         self.stencils.clone()
     }
 
-    /// `b″ ∇d ∇dᵀ + b′ ∇²d`, b the barrier of a pair; b′ < 0 < b″, and without the second of them it is positive semi-definite.
+    /// The second derivatives `b″ ∇d ∇dᵀ + b′ ∇²d`, where b is the barrier of a pair and b′ < 0 <
+    /// b″; without the second term they are positive semi-definite.
     fn hessian(&self, z: &[Complex64], curvature: Curvature, add: &mut dyn FnMut(usize, &Block)) {
         let at = self.places(z);
         for (e, &pair) in self.pairs.iter().enumerate() {
@@ -207,7 +214,7 @@ impl Energy for Clearance {
         None
     }
 
-    /// The first contact of a boundary vertex with a boundary edge up to z + d, farther than which one does not look.
+    /// The first contact of a boundary vertex with a boundary edge between z and z + d.
     fn largest_step(&self, z: &[Complex64], d: &[Complex64]) -> f64 {
         let (at, moves, n) = (self.places(z), self.places(d), self.boundary.len());
         let end: Vec<Complex64> = at.iter().zip(&moves).map(|(z, d)| z + d).collect();

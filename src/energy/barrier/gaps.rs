@@ -4,22 +4,22 @@ use crate::energy::{Block, Curvature, Energy, Polynomial};
 use crate::quad_graph::QuadGraph;
 use crate::sparse::Stencils;
 
-/// A barrier that keeps neighbours on the boundary apart: `−Σ (l/P) log|zₖ₊₁ − zₖ|` over the boundary edges, l their lengths at rest and P
-/// their sum. Not a sum of squares.
+/// A barrier that separates neighbours on the boundary: `−Σ (l/P) log|zₖ₊₁ − zₖ|` over the boundary
+/// edges, where l are their lengths at rest and P is the perimeter. It is not a sum of squares.
 pub struct Gaps {
     edges: Stencils,
     weight: Vec<f64>,
 }
 
 impl Gaps {
-    /// Of the boundary of the graph.
+    /// Makes the barrier of the boundary of the graph.
     pub fn new(graph: &QuadGraph) -> Self {
         let n = graph.boundary.len();
         let edges: Vec<[u32; 2]> = (0..n).map(|k| [graph.boundary[k], graph.boundary[(k + 1) % n]]).collect();
         Self::of(&edges, &graph.boundary_length, graph.perimeter())
     }
 
-    /// Of some edges of these lengths, of a boundary of that length in all.
+    /// Makes the barrier of some edges with given lengths, on a boundary of the given perimeter.
     pub fn of(edges: &[[u32; 2]], lengths: &[f64], perimeter: f64) -> Self {
         Gaps { edges: Stencils::new(edges), weight: lengths.iter().map(|l| l / perimeter).collect() }
     }
@@ -58,7 +58,8 @@ impl Energy for Gaps {
         self.edges.clone()
     }
 
-    /// `(2 u uᵀ − 1)/|d|²`, u the direction of d; without the negative eigenvalue `u uᵀ/|d|²`.
+    /// The second derivatives `(2 u uᵀ − 1)/|d|²`, where u is the direction of d; without the
+    /// negative eigenvalue `u uᵀ/|d|²`.
     fn hessian(&self, z: &[Complex64], curvature: Curvature, add: &mut dyn FnMut(usize, &Block)) {
         for (e, w) in self.weight.iter().enumerate() {
             let d = self.edge(e, z);

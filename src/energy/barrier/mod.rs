@@ -1,4 +1,4 @@
-//! Barriers: energies that are +∞ where a boundary is out of order or meets itself.
+//! Barriers: energies that are +∞ if a boundary is out of order or meets itself.
 
 mod clearance;
 mod gaps;

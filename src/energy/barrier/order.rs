@@ -4,21 +4,21 @@ use crate::energy::{Block, Curvature, Energy, Polynomial};
 use crate::quad_graph::QuadGraph;
 use crate::sparse::Stencils;
 
-/// A barrier that keeps the boundary in order around 0: `−Σ log(zₖ × zₖ₊₁)` over the boundary edges, +∞ where some
-/// zₖ × zₖ₊₁ ≤ 0. Not a sum of squares.
+/// A barrier that keeps the boundary in order around 0: `−Σ log(zₖ × zₖ₊₁)` over the boundary
+/// edges, +∞ if some zₖ × zₖ₊₁ ≤ 0. It is not a sum of squares.
 pub struct Order {
     edges: Stencils,
 }
 
 impl Order {
-    /// Of the boundary of the graph.
+    /// Makes the barrier of the boundary of the graph.
     pub fn new(graph: &QuadGraph) -> Self {
         let n = graph.boundary.len();
         let edges: Vec<[u32; 2]> = (0..n).map(|k| [graph.boundary[k], graph.boundary[(k + 1) % n]]).collect();
         Order { edges: Stencils::new(&edges) }
     }
 
-    /// The edge's ends and their cross product a × b.
+    /// The ends a, b of an edge and their cross product a × b.
     fn piece(&self, e: usize, z: &[Complex64]) -> (Complex64, Complex64, f64) {
         let ends = self.edges.get(e);
         let (a, b) = (z[ends[0] as usize], z[ends[1] as usize]);

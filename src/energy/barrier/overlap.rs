@@ -1,8 +1,8 @@
-//! Which boxes of one list meet which of another, by a sweep from left to right.
+//! Intersections between two lists of boxes, by a sweep from left to right.
 
 use num_complex::Complex64;
 
-/// A box with sides along the axes.
+/// An axis-parallel box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
     low: Complex64,
@@ -10,7 +10,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// The smallest box around these points.
+    /// The bounding box of points.
     pub fn of(points: &[Complex64]) -> Self {
         let nothing = Complex64::new(f64::INFINITY, f64::INFINITY);
         points.iter().fold(Bounds { low: nothing, high: -nothing }, |bounds, z| Bounds {
@@ -19,7 +19,7 @@ impl Bounds {
         })
     }
 
-    /// The box with a margin on all sides.
+    /// Returns the box enlarged by a margin on all sides.
     pub fn grown(self, margin: f64) -> Self {
         let margin = Complex64::new(margin, margin);
         Bounds { low: self.low - margin, high: self.high + margin }
@@ -30,9 +30,10 @@ impl Bounds {
     }
 }
 
-/// Calls `found(i, j)` for every box i of `first` that meets box j of `second`.
+/// Calls `found(i, j)` for every box i of `first` that intersects box j of `second`.
 ///
-/// `n log n` for n boxes, and the pairs that are above each other: few along a curve whose boxes are small beside it.
+/// The cost is O(n log n) for n boxes plus the number of pairs whose horizontal extents overlap;
+/// there are few along a curve whose boxes are small relative to it.
 pub(super) fn overlapping(first: &[Bounds], second: &[Bounds], found: &mut dyn FnMut(usize, usize)) {
     let lists = [first, second];
     let mut order: Vec<(usize, usize)> =
@@ -65,7 +66,8 @@ mod tests {
     }
 
     proptest! {
-        /// Corners on few lines: boxes that touch are the rule. All pairs are the reference.
+        /// Coordinates take few values, so that touching boxes are common. The reference tests all
+        /// pairs.
         #[test]
         fn the_sweep_finds_what_all_pairs_find(first in boxes(), second in boxes()) {
             let mut found = Vec::new();

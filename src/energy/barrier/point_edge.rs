@@ -1,16 +1,16 @@
-//! The distance of a point from an edge, with its derivatives.
+//! The distance of a point from an edge and its derivatives.
 
 use num_complex::Complex64;
 
-/// Of the derivatives with respect to (Re, Im) of the point and of the edge's two ends.
+/// Number of real coordinates: (Re, Im) of the point and of the two ends of the edge.
 const N: usize = 6;
 
-/// How a point v lies to an edge from a to b.
+/// The position of a point v relative to an edge from a to b.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PointEdge {
-    /// d = |v − p|, p the point of the edge that is nearest to v.
+    /// d = |v − p|, where p is the point of the edge nearest to v.
     pub distance: f64,
-    /// What of the edge is nearest.
+    /// The part of the edge that contains p.
     pub nearest: Nearest,
     /// (v − p)/d.
     normal: Complex64,
@@ -21,11 +21,11 @@ pub(super) struct PointEdge {
 /// The part of an edge that is nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Nearest {
-    /// Its first end.
+    /// The first end.
     First,
-    /// Its second end.
+    /// The second end.
     Second,
-    /// a + λ (b − a).
+    /// The interior point a + λ (b − a).
     Between(f64),
 }
 
@@ -42,17 +42,17 @@ impl PointEdge {
         PointEdge { distance, nearest, normal: from / distance, edge }
     }
 
-    /// Whether the point is to the right of the edge's line.
+    /// Whether the point is to the right of the line through the edge.
     pub fn is_right(&self) -> bool {
         (self.edge.conj() * self.normal).im < 0.0
     }
 
-    /// From the nearest point to v, of length 1.
+    /// The unit vector from the nearest point to v.
     pub fn direction(&self) -> Complex64 {
         self.normal
     }
 
-    /// The share of each end in the nearest point.
+    /// The weight of each end in the nearest point.
     fn shares(&self) -> [f64; 2] {
         match self.nearest {
             Nearest::First => [1.0, 0.0],
@@ -61,20 +61,22 @@ impl PointEdge {
         }
     }
 
-    /// ∂d of the three points: n, −(1 − λ) n, −λ n.
+    /// ∂d for the three points: n, −(1 − λ) n, −λ n.
     pub fn gradient(&self) -> [Complex64; 3] {
         let [s, t] = self.shares();
         [self.normal, -s * self.normal, -t * self.normal]
     }
 
-    /// ∂²d. Between the ends, with u the edge's direction and l its length, `ω = n·(δb − δa)/l` by which it turns towards v and
-    /// `τ = u·(δv − (1 − λ) δa − λ δb)`:
+    /// The second derivatives of d.
+    ///
+    /// For a nearest point between the ends, let u be the direction and l the length of the edge,
+    /// `ω = n·(δb − δa)/l` its rotation towards v, and `τ = u·(δv − (1 − λ) δa − λ δb)`. Then
     ///
     /// ```text
     /// δ²d = −2 ω τ − d ω²
     /// ```
     ///
-    /// and from an end `τ²/d`, τ across n.
+    /// For a nearest end it is `τ²/d` with τ perpendicular to n.
     pub fn hessian(&self) -> [[f64; N]; N] {
         let [s, t] = self.shares();
         let n = self.normal;
@@ -106,7 +108,8 @@ impl PointEdge {
     }
 }
 
-/// The smallest t in [0, 1] at which the point v + t v' is on the edge between a + t a' and b + t b'; +∞ where there is none.
+/// Returns the smallest t in [0, 1] at which the point v + t v' lies on the edge from a + t a' to b
+/// + t b', or +∞.
 pub(super) fn first_contact([v, a, b]: [Complex64; 3], [dv, da, db]: [Complex64; 3]) -> f64 {
     let cross = |x: Complex64, y: Complex64| (x.conj() * y).im;
     let (e, w, de, dw) = (b - a, v - a, db - da, dv - da);
@@ -119,7 +122,8 @@ pub(super) fn first_contact([v, a, b]: [Complex64; 3], [dv, da, db]: [Complex64;
     roots(p, q, r).into_iter().filter(on_the_edge).fold(f64::INFINITY, f64::min)
 }
 
-/// The real roots of `p t² + q t + r`, without cancellation; NaN and infinities for those that are missing.
+/// Returns the real roots of `p t² + q t + r`, computed without cancellation; missing roots are NaN
+/// or infinite.
 fn roots(p: f64, q: f64, r: f64) -> [f64; 2] {
     let half = -0.5 * (q + (q * q - 4.0 * p * r).sqrt().copysign(q));
     [half / p, r / half]
@@ -135,7 +139,7 @@ mod tests {
 
     #[test]
     fn derivatives_are_those_of_the_distance() {
-        // Nearest in between, on both sides; nearest at either end.
+        // The nearest point is in between, on both sides of the edge; then it is at either end.
         for x in [
             [0.4, 0.7, 0.0, 0.1, 1.3, -0.2],
             [0.4, -0.7, 0.0, 0.1, 1.3, -0.2],
@@ -169,12 +173,13 @@ mod tests {
         let edge = |v: Complex64| [v, at(0.0, 0.0), at(2.0, 0.0)];
         let moves = |d: Complex64| [d, zero, zero];
         assert_eq!(first_contact(edge(at(1.0, 1.0)), moves(at(0.0, -4.0))), 0.25);
-        // Short of it, past it, away from it, beside it, along it.
+        // The point stops before the edge, passes it, moves away, moves beside it, or moves along
+        // it.
         assert_eq!(first_contact(edge(at(1.0, 1.0)), moves(at(0.0, -0.5))), f64::INFINITY);
         assert_eq!(first_contact(edge(at(1.0, 1.0)), moves(at(0.0, 4.0))), f64::INFINITY);
         assert_eq!(first_contact(edge(at(3.0, 1.0)), moves(at(0.0, -4.0))), f64::INFINITY);
         assert_eq!(first_contact(edge(at(1.0, 1.0)), moves(at(1.0, 0.0))), f64::INFINITY);
-        // An edge that turns onto a point at rest.
+        // An edge rotates onto a fixed point.
         let contact = first_contact([at(1.0, 1.0), zero, at(2.0, 0.0)], [zero, zero, at(0.0, 4.0)]);
         assert_eq!(contact, 0.5);
     }
