@@ -4,15 +4,15 @@ use std::f64::consts::TAU;
 use super::{ConstraintError, Fixed};
 use crate::quad_graph::QuadGraph;
 
-/// What the boundary is laid on.
+/// The curve on which the boundary is pinned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shape {
     /// The unit circle, by arc length from (1, 0).
     #[default]
     Circle,
-    /// The square [−1, 1]², by arc length along each side; the corners are the mesh vertices nearest to the quarters
-    /// of the boundary's length.
+    /// The square [−1, 1]², by arc length along each side. Its corners are the images of the mesh
+    /// vertices closest to the quarters of the boundary's length.
     Square,
 }
 
@@ -24,10 +24,12 @@ impl Shape {
     ];
 }
 
-/// The whole boundary of `graph` held on `shape` by arc length, counter-clockwise from `graph.boundary[0]`.
+/// Pins the whole boundary of `graph` on `shape` by arc length, counter-clockwise from
+/// `graph.boundary[0]`.
 ///
 /// # Errors
-/// Neighbours on the boundary that coincide at rest; too few mesh vertices for the corners of the shape.
+/// Neighbours on the boundary that coincide at rest; too few mesh vertices for the corners of the
+/// shape.
 pub fn on_shape(graph: &QuadGraph, shape: Shape) -> Result<Fixed, ConstraintError> {
     let arc = arc_lengths(graph, &graph.boundary_length)?;
     let length = arc[arc.len() - 1];
@@ -51,8 +53,10 @@ pub fn on_shape(graph: &QuadGraph, shape: Shape) -> Result<Fixed, ConstraintErro
     Ok(fixed)
 }
 
-/// The whole boundary on a circle around 0, with the angles of `anchors` (positions on the boundary, ascending, with
-/// angles that increase by less than 2π in all) and between these by arc length.
+/// Pins the whole boundary on a circle around 0.
+///
+/// `anchors` are positions on the boundary, ascending, with angles that increase by less than 2π in
+/// total; between them angles are proportional to arc length.
 ///
 /// # Errors
 /// Neighbours on the boundary that coincide at rest.
@@ -60,8 +64,10 @@ pub fn on_circle(graph: &QuadGraph, radius: f64, anchors: &[(usize, f64)]) -> Re
     Ok(by_arc(graph, &arc_lengths(graph, &graph.boundary_length)?, radius, anchors))
 }
 
-/// The same on the unit circle, from an angle of 0, with neighbours no nearer than a share of 10⁻⁸ of their mean distance: a boundary on
-/// which every vertex has a place of its own, even where rounding would put edges of different lengths on each other.
+/// Pins the whole boundary on the unit circle, from the angle 0, with distinct positions.
+///
+/// Edges shorter than 10⁻⁸ of the mean edge are treated as having that length, so that rounding
+/// cannot give two neighbours the same position.
 ///
 /// # Errors
 /// An edge without length.
@@ -75,10 +81,11 @@ pub fn on_circle_apart(graph: &QuadGraph) -> Result<Fixed, ConstraintError> {
     Ok(by_arc(graph, &arc_lengths(graph, &lengths)?, 1.0, &[(0, 0.0)]))
 }
 
-/// Of 10⁶ vertices neighbours are then 1e-13 from each other, a thousand times what doubles tell apart.
+/// With 10⁶ vertices neighbours have a distance of 1e-13, a thousand times the resolution of double
+/// precision.
 const APART: f64 = 1e-8;
 
-/// Angles by arc length (`nb + 1`) between anchors.
+/// Pins the boundary at angles interpolated by arc length (`nb + 1`) between anchors.
 fn by_arc(graph: &QuadGraph, arc: &[f64], radius: f64, anchors: &[(usize, f64)]) -> Fixed {
     let n = graph.boundary.len();
     let mut fixed = Fixed::default();
@@ -96,7 +103,8 @@ fn by_arc(graph: &QuadGraph, arc: &[f64], radius: f64, anchors: &[(usize, f64)])
     fixed
 }
 
-/// Arc length from `boundary[0]` to each boundary vertex, and the whole (`nb + 1`).
+/// Returns the arc length from `boundary[0]` to each boundary vertex and the total length (`nb +
+/// 1`).
 fn arc_lengths(graph: &QuadGraph, lengths: &[f64]) -> Result<Vec<f64>, ConstraintError> {
     let mut arc = Vec::with_capacity(graph.boundary.len() + 1);
     let mut length = 0.0;
@@ -115,7 +123,8 @@ fn arc_lengths(graph: &QuadGraph, lengths: &[f64]) -> Result<Vec<f64>, Constrain
 const CORNERS: [Complex64; 4] =
     [Complex64::new(-1.0, -1.0), Complex64::new(1.0, -1.0), Complex64::new(1.0, 1.0), Complex64::new(-1.0, 1.0)];
 
-/// Positions along the boundary, ascending, of the four mesh vertices nearest to 0, ¼, ½, ¾ of its length.
+/// Returns the positions along the boundary, ascending, of the four mesh vertices closest to 0, ¼,
+/// ½, ¾ of its length.
 fn square_corners(graph: &QuadGraph, arc: &[f64]) -> Result<[usize; 4], ConstraintError> {
     let mesh: Vec<usize> = (0..graph.boundary.len()).filter(|&k| !graph.is_dual(graph.boundary[k])).collect();
     if mesh.len() < 4 {
@@ -126,7 +135,7 @@ fn square_corners(graph: &QuadGraph, arc: &[f64]) -> Result<[usize; 4], Constrai
     let mut taken = 0;
     for (side, corner) in corners.iter_mut().enumerate().skip(1) {
         let wanted = length * side as f64 / 4.0;
-        // Later corners keep room for those after them.
+        // Leaves vertices for the remaining corners.
         let candidates = taken + 1..=mesh.len() - (4 - side);
         let distance = |i: &usize| (arc[mesh[*i]] - wanted).abs();
         taken = candidates.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(taken + 1);

@@ -4,36 +4,39 @@ use super::Fixed;
 use crate::quad_graph::QuadGraph;
 use crate::sparse::{Order, dissect};
 
-/// Fewer unknowns are numbered by ascending vertices, and eliminated by minimum degree: at this size that begins to cost more
-/// than the factor.
+/// Below this number of unknowns they are numbered by ascending vertices and eliminated by minimum
+/// degree; above, computing that order begins to cost more than the factor.
 const DISSECTED: usize = 150_000;
 
-/// More unknowns than that are always dissected: minimum degree, which looks at neighbours alone, then leaves much more fill.
+/// Above this number of unknowns dissection is always used: minimum degree, which looks only at
+/// neighbours, then gives much more fill.
 const ALWAYS_DISSECTED: usize = 3_000_000;
 
-/// A mesh is numbered row by row where the numbers of a quad's vertices are, in the mean, no further apart than this many times √nv.
-/// On these minimum degree finds an order as good, for less: it takes ties as they come.
+/// A mesh counts as numbered row by row if the indices of a quad's vertices differ, on average, by
+/// at most this multiple of √nv. On such meshes minimum degree finds an order that is as good in
+/// less time.
 const ROWS: f64 = 4.0;
 
-/// `z = Z y + z0`: y are the values of the free vertices, z0 has the held values and 0 elsewhere.
+/// The elimination of pinned vertices: `z = Z y + z0`, where y are the values of the free vertices
+/// and z0 has the pinned values and is 0 elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elimination {
     /// The vertex of each unknown (`m`).
     pub free: Vec<u32>,
     /// The unknown of each vertex (`nv`), or [`Elimination::HELD`].
     pub unknown: Vec<u32>,
-    /// The held values, 0 at free vertices (`nv`).
+    /// The pinned values, 0 at free vertices (`nv`).
     pub z0: Vec<Complex64>,
-    /// In what order a Cholesky factor is to eliminate the unknowns.
+    /// The order in which a Cholesky factor eliminates the unknowns.
     pub order: Order,
 }
 
 impl Elimination {
-    /// Marks a vertex that is no unknown.
+    /// Marks a pinned vertex, which is not an unknown.
     pub const HELD: u32 = u32::MAX;
 
-    /// Eliminates the vertices that `fixed` holds from those of a graph of `vertices` vertices. The unknowns are numbered by
-    /// ascending vertices.
+    /// Eliminates the pinned vertices from a graph of `vertices` vertices. The unknowns are
+    /// numbered by ascending vertices.
     pub fn new(vertices: usize, fixed: &Fixed) -> Self {
         let mut z0 = vec![Complex64::ZERO; vertices];
         let mut unknown = vec![0; vertices];
@@ -48,8 +51,11 @@ impl Elimination {
         Elimination { free, unknown, z0, order: Order::Amd }
     }
 
-    /// The same for a factor of matrices that couple the vertices of each quad: many unknowns are numbered in an order of
-    /// nested dissection ([`dissect`]), unless the mesh is numbered row by row.
+    /// Eliminates the pinned vertices for factors of matrices that couple the vertices of each
+    /// quad.
+    ///
+    /// Large numbers of unknowns are ordered by nested dissection ([`dissect`]), unless the mesh is
+    /// numbered row by row.
     pub fn for_factor(graph: &QuadGraph, fixed: &Fixed) -> Self {
         let mut elimination = Elimination::new(graph.vertices, fixed);
         let unknowns = elimination.unknowns();
@@ -73,7 +79,7 @@ impl Elimination {
         self.unknown[v as usize] != Self::HELD
     }
 
-    /// z = Z y + z0.
+    /// Returns z = Z y + z0.
     pub fn expand(&self, y: &[Complex64]) -> Vec<Complex64> {
         let mut z = self.z0.clone();
         for (&v, &value) in self.free.iter().zip(y) {

@@ -6,22 +6,27 @@ use super::{Fixed, Line};
 use crate::quad_graph::QuadGraph;
 use crate::sparse::dissect;
 
-/// Fewer unknowns are eliminated by minimum degree.
+/// Below this number of unknowns they are eliminated by minimum degree.
 const DISSECTED: usize = 100_000;
 
-/// `x = x(y)` over the reals: of a free vertex both coordinates are unknowns, of one on a line the place along it, of one on the unit
-/// circle its angle, of a held one nothing. Without angles `x = Z y + x0`.
+/// The real unknowns y of a map, `x = x(y)`.
+///
+/// A free vertex has both coordinates as unknowns, a vertex on a line its position along the line,
+/// a vertex on the unit circle its angle, and a pinned vertex none. Without angles x is affine: `x
+/// = Z y + x0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Freedoms {
-    /// Where the unknowns of each vertex begin in y (`nv + 1`).
+    /// The first unknown of each vertex in y (`nv + 1`).
     pub offset: Vec<u32>,
-    /// The vertices with unknowns in the order in which a factor is to eliminate them; empty: minimum degree.
+    /// The vertices with unknowns in the order in which a factor eliminates them; if empty, minimum
+    /// degree is used.
     pub elimination: Vec<u32>,
     /// The vertices on lines, ascending.
     lines: Vec<(u32, Line)>,
-    /// Held values; 0 elsewhere (`nv`).
+    /// The pinned values; 0 elsewhere (`nv`).
     z0: Vec<Complex64>,
-    /// The vertices on the unit circle, in order along it; those that are held begin with the first.
+    /// The vertices on the unit circle, in order; if some are pinned, the list begins with one of
+    /// these.
     circle: Vec<Sliding>,
 }
 
@@ -29,17 +34,18 @@ pub struct Freedoms {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Sliding {
     vertex: u32,
-    /// Its angle, where it is held; ascending along the circle.
+    /// The angle if the vertex is pinned; ascending along the circle.
     held: Option<f64>,
 }
 
 impl Freedoms {
-    /// The freedoms that `fixed` leaves to a map of `vertices` vertices.
+    /// Returns the freedoms that `fixed` leaves to a map of `vertices` vertices.
     pub fn new(vertices: usize, fixed: &Fixed) -> Self {
         Self::sliding(vertices, fixed, &[])
     }
 
-    /// The same where the vertices of `boundary` that are not held slide along the unit circle, and keep their order there.
+    /// As [`Freedoms::new`], but the vertices of `boundary` that are not pinned slide along the
+    /// unit circle and keep their order.
     pub fn sliding(vertices: usize, fixed: &Fixed, boundary: &[u32]) -> Self {
         let mut slides = vec![false; vertices];
         for &v in boundary {
@@ -73,8 +79,8 @@ impl Freedoms {
         Freedoms { offset, elimination: Vec::new(), lines, z0, circle }
     }
 
-    /// [`Freedoms::new`] for a factor of Hessians that couple the vertices of each quad: large ones are eliminated in an order of nested
-    /// dissection ([`dissect`]).
+    /// As [`Freedoms::new`], for factors of Hessians that couple the vertices of each quad: large
+    /// ones are ordered by nested dissection ([`dissect`]).
     pub fn for_factor(graph: &QuadGraph, fixed: &Fixed) -> Self {
         let mut freedoms = Freedoms::new(graph.vertices, fixed);
         if freedoms.unknowns() >= DISSECTED {
@@ -93,18 +99,18 @@ impl Freedoms {
         (self.offset[v + 1] - self.offset[v]) as usize
     }
 
-    /// Whether some unknowns are angles, so that x is no linear function of y.
+    /// Whether some unknowns are angles, so that x is not an affine function of y.
     pub fn slides(&self) -> bool {
         self.angles().next().is_some()
     }
 
-    /// The vertices that have an angle for unknown, each with its position in y.
+    /// The vertices whose unknown is an angle, each with its position in y.
     pub fn angles(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let sliding = self.circle.iter().filter(|s| s.held.is_none());
         sliding.map(|s| (s.vertex as usize, self.offset[s.vertex as usize] as usize))
     }
 
-    /// ∂x/∂y of the vertices with one unknown at y; 1 elsewhere (`nv`).
+    /// ∂x/∂y at y for the vertices with one unknown; 1 elsewhere (`nv`).
     pub fn directions(&self, y: &[f64]) -> Vec<Complex64> {
         let mut directions = vec![Complex64::ONE; self.z0.len()];
         for &(v, line) in &self.lines {
@@ -116,7 +122,7 @@ impl Freedoms {
         directions
     }
 
-    /// x(y).
+    /// Returns x(y).
     pub fn expand(&self, y: &[f64]) -> Vec<Complex64> {
         let mut z = self.z0.clone();
         self.write(y, &mut z);
@@ -129,7 +135,7 @@ impl Freedoms {
         z
     }
 
-    /// (∂x/∂y) p, the change of x at y that a small change p of y makes.
+    /// Returns (∂x/∂y) p, the derivative of x at y in the direction p.
     pub fn expand_direction(&self, y: &[f64], p: &[f64]) -> Vec<Complex64> {
         let mut z = vec![Complex64::ZERO; self.z0.len()];
         self.write(p, &mut z);
@@ -151,7 +157,8 @@ impl Freedoms {
         }
     }
 
-    /// The y nearest to a map z; angles ascend along the circle, by less than 2π in all where z has them in order.
+    /// Returns the y closest to a map z. Angles ascend along the circle, by less than 2π in total
+    /// if z has them in order.
     pub fn restrict(&self, z: &[Complex64]) -> Vec<f64> {
         let mut y = vec![0.0; self.unknowns()];
         let mut from_point = z.to_vec();
@@ -170,7 +177,8 @@ impl Freedoms {
         y
     }
 
-    /// (∂x/∂y)ᵀ g, the gradient for y at y from that for x, ∂/∂Re z + i ∂/∂Im z.
+    /// Returns (∂x/∂y)ᵀ g, the gradient with respect to y at y; g = ∂/∂Re z + i ∂/∂Im z is the one
+    /// with respect to x.
     pub fn restrict_gradient(&self, y: &[f64], g: &[Complex64]) -> Vec<f64> {
         let mut gradient = vec![0.0; self.unknowns()];
         self.project(g, &mut gradient);
@@ -180,7 +188,7 @@ impl Freedoms {
         gradient
     }
 
-    /// Zᵀ g, but for angles.
+    /// Computes Zᵀ g, except for angles.
     fn project(&self, g: &[Complex64], y: &mut [f64]) {
         for (v, g) in g.iter().enumerate() {
             let at = self.offset[v] as usize;
@@ -193,12 +201,13 @@ impl Freedoms {
         }
     }
 
-    /// Whether the vertices on the circle are in order, each ahead of the one before.
+    /// Whether the vertices on the circle are in order, each ahead of the previous one.
     pub fn is_in_order(&self, y: &[f64]) -> bool {
         self.gaps(y).all(|gap| gap > 0.0)
     }
 
-    /// How far one may go from y along p before a vertex on the circle meets the next; +∞ where none does.
+    /// The largest step from y along p before a vertex on the circle meets the next; +∞ if none
+    /// does.
     pub fn largest_step(&self, y: &[f64], p: &[f64]) -> f64 {
         let moves = |k: usize| {
             self.circle[k].held.map_or_else(|| p[self.offset[self.circle[k].vertex as usize] as usize], |_| 0.0)
@@ -220,7 +229,7 @@ impl Freedoms {
     }
 }
 
-/// The angle of a place, ahead of the last one by less than a turn.
+/// Returns the angle of a point, ahead of the last angle by less than a turn.
 fn ahead_of(last: Option<f64>, place: Complex64) -> f64 {
     match last {
         None => place.arg(),

@@ -1,4 +1,4 @@
-//! What must be held so that a map is unique, and which freedoms no energy sees.
+//! The vertices that must be pinned so that a map is unique, and the freedoms that no energy sees.
 
 use num_complex::Complex64;
 
@@ -7,11 +7,15 @@ use crate::energy::Expression;
 use crate::quad_graph::QuadGraph;
 use crate::quad_graph::metric::RestMetric;
 
-/// Positions on the boundary, `count` of them, spread evenly by arc length; on triangle meshes those of mesh vertices.
+/// Returns `count` positions on the boundary, spread evenly by arc length; on triangle meshes they
+/// are mesh vertices.
 ///
-/// Of all ways to spread them the one is taken whose worst point is best: a point at a misshapen quad, such as the flat
-/// ones where a square grid covers a disc, holds the whole map at a bad place (errors double). The shape of a quad is
-/// `2 Re ρ / (1 + |ρ|²)`, 1 for a square.
+/// Of all such choices it returns the one whose worst quad shape, `2 Re ρ / (1 + |ρ|²)` (1 for a
+/// square), is best.
+///
+/// # Rationale
+/// A point at a badly shaped quad, such as the flat ones of a square grid mapped to a disc, pins
+/// the whole map at an inaccurate position; errors double.
 pub fn spread_points(graph: &QuadGraph, count: usize) -> Vec<usize> {
     const TRIALS: usize = 64;
     let n = graph.boundary.len();
@@ -45,20 +49,25 @@ pub fn spread_points(graph: &QuadGraph, count: usize) -> Vec<usize> {
     };
     let trials = mesh.iter().step_by(mesh.len().div_ceil(TRIALS).max(1)).map(|&first| spread_from(first));
     let better = |best: Vec<usize>, other: Vec<usize>| {
-        // A clear gain only: on regular meshes the first way stays, whatever the rounding.
+        // Only a clear gain counts: on regular meshes the first choice stays, whatever the
+        // rounding.
         if worst_shape(&other) > 1.001 * worst_shape(&best) { other } else { best }
     };
     trials.reduce(better).unwrap_or_default()
 }
 
-/// Holds what the rigid motions, and translations of one colour against the other, leave free, at the places of `z`:
+/// Pins the rigid motions, and the translations of one colour relative to the other, that the
+/// energy leaves free, at the positions of `z`.
 ///
-/// with L or L', a boundary vertex and the direction from it to the farthest on the boundary; with A but neither (only
-/// diagonals enter), a black vertex, the direction to the farthest black one, and a white vertex.
+/// With L or L' these are a boundary vertex and the direction from it to the farthest boundary
+/// vertex. With A but neither L nor L' only diagonals enter: a black vertex, the direction to the
+/// farthest black one, and a white vertex.
 ///
-/// The paper (§3.3) has the direction of the next boundary edge in place of the farthest vertex's. It takes away the same
-/// rotation, but where that edge must turn in the course of a minimisation the whole map must turn around it, by steps that
-/// shrink with the mesh: iterations then grow like its side. [`turn_back`] gives the edge its direction again.
+/// # Rationale
+/// The paper (§3.3) pins the direction of the next boundary edge instead of that of the farthest
+/// vertex. This removes the same rotation. But if that edge must rotate during the minimisation,
+/// the whole map must rotate around it, in steps that shrink with the mesh width, and the number of
+/// iterations grows as its inverse. [`turn_back`] restores the direction of that edge afterwards.
 pub fn hold_gauge(fixed: &mut Fixed, energy: &Expression, graph: &QuadGraph, z: &[Complex64]) {
     let (first, next) = (graph.boundary[0], graph.boundary[1]);
     let at = |v: u32| z[v as usize];
@@ -80,8 +89,8 @@ pub fn hold_gauge(fixed: &mut Fixed, energy: &Expression, graph: &QuadGraph, z: 
     }
 }
 
-/// Turns a map around the vertex that [`hold_gauge`] holds, so that the next boundary edge has the direction that it has in
-/// `start`; with A but neither L nor L', a black diagonal.
+/// Rotates a map around the vertex pinned by [`hold_gauge`] so that the next boundary edge has the
+/// direction that it has in `start`; with A but neither L nor L', a black diagonal.
 pub fn turn_back(energy: &Expression, graph: &QuadGraph, start: &[Complex64], z: &mut [Complex64]) {
     let first = graph.boundary[0];
     let through = if energy.has("L") || energy.has("Lb") {
@@ -103,8 +112,9 @@ pub fn turn_back(energy: &Expression, graph: &QuadGraph, start: &[Complex64], z:
     }
 }
 
-/// Shifts the white vertices (those not connected with `boundary[0]` by diagonals) by the one offset that minimises
-/// `Σ_edges (|zi − zj|² − l²)²`. No energy of diagonals alone sees it.
+/// Translates the white vertices (those not connected to `boundary[0]` by diagonals) by the offset
+/// that minimises `Σ_edges (|zi − zj|² − l²)²`. Energies of diagonals alone do not depend on the
+/// offset.
 pub fn float_white_back(graph: &QuadGraph, metric: &RestMetric, z: &mut [Complex64]) {
     let (class, _) = graph.diagonal_classes();
     let black = class[graph.boundary[0] as usize];
@@ -124,7 +134,8 @@ pub fn float_white_back(graph: &QuadGraph, metric: &RestMetric, z: &mut [Complex
     };
     let mut offset = Complex64::ZERO;
     let mut lowest = energy(offset);
-    // Newton in two unknowns, the Hessian made definite by the Gauss–Newton part where it is not.
+    // Newton's method in two unknowns; a Hessian that is not positive definite is replaced by its
+    // Gauss–Newton part.
     for _ in 0..50 {
         let (mut g, mut gauss, mut bend) = (Complex64::ZERO, [0.0; 3], 0.0);
         for (a, b, length) in edges() {

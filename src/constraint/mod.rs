@@ -1,4 +1,4 @@
-//! Which vertices are held where, and the elimination x = Z y + x0 that leaves backends the free unknowns y alone.
+//! Pinned vertices, and the elimination x = Z y + x0 that leaves solvers only the free unknowns y.
 
 mod boundary;
 mod elimination;
@@ -16,73 +16,75 @@ use num_complex::Complex64;
 
 use crate::quad_graph::QuadGraph;
 
-/// Vertices of the quad graph held at given places, or on given lines.
+/// Vertices of the quad graph that are pinned at given positions or to given lines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fixed {
     places: BTreeMap<u32, Complex64>,
     lines: BTreeMap<u32, Line>,
 }
 
-/// `point + t direction`, t real.
+/// The line `point + t direction`, t real.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     /// A point of the line.
     pub point: Complex64,
-    /// Of length 1.
+    /// The direction, of length 1.
     pub direction: Complex64,
 }
 
-/// Largest distance of a held vertex from 0: sums of squares of such places, times any ρ in use, are still finite.
+/// Largest distance of a pinned vertex from 0, such that sums of squares, multiplied by any ρ in
+/// use, are finite.
 const FARTHEST: f64 = 1e100;
 
 /// The constraints do not make a well-posed problem.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConstraintError {
-    /// A held vertex that is no vertex of the mapped surface.
+    /// A pinned vertex does not belong to the mapped surface.
     #[error("vertex {vertex} cannot be held: the surface has no such vertex in use (vertices count from 0)")]
     NoSuchVertex {
-        /// The vertex asked for.
+        /// The requested vertex.
         vertex: u32,
     },
-    /// A place that is NaN or infinite.
+    /// A position is NaN or infinite.
     #[error("vertex {vertex} cannot be held at a place that is NaN or infinite")]
     NotFinite {
         /// The vertex.
         vertex: u32,
     },
-    /// A place whose square leaves the range of doubles.
+    /// A position is so far from 0 that its square could overflow.
     #[error("vertex {vertex} cannot be held at {}, {}: that is farther than {FARTHEST:e} from 0", place.re, place.im)]
     TooFar {
         /// The vertex.
         vertex: u32,
-        /// The place.
+        /// The position.
         place: Complex64,
     },
-    /// Too few boundary edges for a shape's corners.
+    /// The boundary has too few mesh vertices for the corners of the shape.
     #[error("the boundary has {vertices} mesh vertices, and the shape needs {needed}")]
     TooFewBoundaryVertices {
-        /// Mesh vertices on the boundary.
+        /// Number of mesh vertices on the boundary.
         vertices: usize,
-        /// Corners of the shape.
+        /// Number of corners of the shape.
         needed: usize,
     },
-    /// Two boundary vertices that are held coincide at rest, so arc length does not tell them apart.
-    #[error("the boundary has no length between vertices {0} and {1}, and arc length does not tell them apart")]
+    /// Two boundary vertices coincide at rest, so arc length gives them the same position.
+    #[error("the boundary has no length between vertices {0} and {1}, so arc length gives both the same position")]
     NoArcLength(u32, u32),
-    /// Fewer equations than unknowns.
+    /// There are fewer equations than unknowns.
     #[error(
         "H leaves {freedoms} complex freedoms with {held} vertices held: hold at least {needed} (the whole boundary, or \
          its mesh vertices and one dual vertex)"
     )]
     Underdetermined {
-        /// Vertices held.
+        /// Number of pinned vertices.
         held: usize,
-        /// Vertices that must be held at least, nb / 2 + 1.
+        /// Number of vertices that must be pinned at least, nb / 2 + 1.
         needed: usize,
-        /// The difference.
+        /// The difference of the two.
         freedoms: usize,
     },
-    /// A class of vertices (design: black or white) of which none is held can be translated freely.
+    /// No vertex of a diagonal class (black or white) is pinned, so the class can be translated
+    /// freely.
     #[error(
         "no vertex of the diagonal class of vertex {vertex} is held, and H lets the class move freely: hold one of it"
     )]
@@ -93,13 +95,13 @@ pub enum ConstraintError {
 }
 
 impl Fixed {
-    /// Holds `vertex` at `place`, in place of what was said of it before.
+    /// Pins `vertex` at `place`; replaces an earlier position.
     pub fn hold(&mut self, vertex: u32, place: Complex64) {
         self.places.insert(vertex, place);
     }
 
-    /// Holds the dual boundary vertices between mesh vertices that are held, on the straight line between these, in the
-    /// ratio of the rest lengths.
+    /// Pins the dual boundary vertices between pinned mesh vertices, on the straight line between
+    /// these in the ratio of the rest lengths.
     pub fn hold_dual_boundary(&mut self, graph: &QuadGraph) {
         let n = graph.boundary.len();
         for k in (0..n).filter(|&k| graph.is_dual(graph.boundary[k])) {
@@ -111,54 +113,55 @@ impl Fixed {
         }
     }
 
-    /// Lets go of all dual vertices but the first one along the boundary, so that (2) is square on a triangle mesh.
+    /// Releases all dual vertices but the first one along the boundary, so that (2) is square on
+    /// triangle meshes.
     pub fn keep_one_dual(&mut self, graph: &QuadGraph) {
         let mut dual = graph.boundary.iter().filter(|&&v| graph.is_dual(v) && self.holds(v));
         let first = dual.next().copied();
         self.places.retain(|&v, _| !graph.is_dual(v) || Some(v) == first);
     }
 
-    /// Lets `vertex` move on the line from `point` towards `through` alone.
+    /// Restricts `vertex` to the line through `point` and `through`.
     pub fn hold_on_line(&mut self, vertex: u32, point: Complex64, through: Complex64) {
         let direction = (through - point) / (through - point).norm();
         self.lines.insert(vertex, Line { point, direction });
     }
 
-    /// The line on which `vertex` is held.
+    /// The line to which `vertex` is restricted, if any.
     pub fn line(&self, vertex: u32) -> Option<Line> {
         self.lines.get(&vertex).copied()
     }
 
-    /// Whether `vertex` is held.
+    /// Whether `vertex` is pinned at a position.
     pub fn holds(&self, vertex: u32) -> bool {
         self.places.contains_key(&vertex)
     }
 
-    /// Where `vertex` is held.
+    /// The position at which `vertex` is pinned, if any.
     pub fn place(&self, vertex: u32) -> Option<Complex64> {
         self.places.get(&vertex).copied()
     }
 
-    /// Number of vertices held.
+    /// Number of vertices pinned at positions.
     pub fn len(&self) -> usize {
         self.places.len()
     }
 
-    /// Whether no vertex is held.
+    /// Whether no vertex is pinned at a position.
     pub fn is_empty(&self) -> bool {
         self.places.is_empty()
     }
 
-    /// The vertices held with their places, in ascending order.
+    /// The pinned vertices with their positions, in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = (u32, Complex64)> + '_ {
         self.places.iter().map(|(&v, &z)| (v, z))
     }
 
-    /// Checks that H has one minimum under these constraints: `nb / 2 + 1` complex values at least, and one vertex of
-    /// each diagonal class.
+    /// Checks that H has a unique minimum under these constraints: at least `nb / 2 + 1` complex
+    /// values and one vertex of each diagonal class must be pinned.
     ///
     /// # Errors
-    /// What is missing, or a vertex that does not exist.
+    /// [`ConstraintError`] if a condition is violated or a pinned vertex is invalid.
     pub fn determine(&self, graph: &QuadGraph) -> Result<(), ConstraintError> {
         for (vertex, place) in self.iter() {
             if vertex as usize >= graph.vertices {
