@@ -1,4 +1,4 @@
-//! Angles around vertices: where a surface is curved, and how its boundary turns.
+//! Angles around vertices: the curvature of a surface and the turning of its boundary.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,11 +6,12 @@ use super::QuadGraph;
 use crate::geometry::vector::{cross, dot, norm, scale, sub};
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// What the angles of the faces around each vertex of the graph (`nv`) lack of 2π, on the boundary of π; 0 at dual vertices.
-/// The sum is 2π (Gauss and Bonnet).
+/// Returns the angle defect of each vertex of the graph (`nv`): 2π, or π on the boundary, minus the
+/// angles of the faces at the vertex; 0 at dual vertices. For a disc the sum is 2π (Gauss–Bonnet).
 ///
-/// A quad's angles are those of its edges in R³, and what they lack of 2π, where it is not flat, is spread over its
-/// corners. With `normals` (`nf × 3`, unit) they are those of the edges projected on the tangent planes.
+/// The angles of a quad are those between its edges in R³; if it is not flat, their difference from
+/// 2π is distributed evenly over its corners. With `normals` (`nf × 3`, unit) the edges are
+/// projected to the tangent planes first.
 pub fn curvature(disc: &OrientedMesh, graph: &QuadGraph, normals: Option<&[[f64; 3]]>) -> Vec<f64> {
     let mut curvature = vec![0.0; graph.vertices];
     curvature[..graph.primal].fill(TAU);
@@ -24,7 +25,7 @@ pub fn curvature(disc: &OrientedMesh, graph: &QuadGraph, normals: Option<&[[f64;
             let d = disc.spoke(f, k % n, (k + 1) % n);
             given.map_or(d, |n| sub(d, scale(dot(d, n), n)))
         };
-        // Twice the area: upwards.
+        // Twice the vector area, which points upward.
         let up = given.unwrap_or_else(|| cross(sub(edge(0), scale(-1.0, edge(1))), sub(edge(1), scale(-1.0, edge(2)))));
         let angle = |k: usize| {
             let (back, ahead) = (scale(-1.0, edge(k + n - 1)), edge(k));

@@ -1,19 +1,20 @@
-//! Where a triangle puts its dual vertex. A new dual point is one implementation and one row of [`DUAL_POINTS`].
+//! The position of the dual vertex of a triangle. A new dual point is one implementation and one
+//! row of [`DUAL_POINTS`].
 
-/// A point of a triangle that depends on its shape alone (intrinsic: edge lengths alone matter).
+/// A point of a triangle that depends only on the edge lengths (intrinsic).
 pub trait DualPoint: Sync {
-    /// Name on the command line.
+    /// The name, as used in options.
     fn name(&self) -> &'static str;
 
-    /// One line for `riemap list`.
+    /// A description of one line.
     fn description(&self) -> &'static str;
 
-    /// Barycentric weights of the point, not necessarily normalised, from the lengths of the edges opposite the three
-    /// vertices; a symmetric function of the triangle.
+    /// Returns barycentric weights of the point, not necessarily normalised, from the lengths of
+    /// the edges opposite the three vertices. It must be a symmetric function of the triangle.
     fn weights(&self, lengths: [f64; 3]) -> [f64; 3];
 
-    /// The point seen from an edge, in coordinates where the edge runs from 0 to 1 and the third vertex is `t + iu`,
-    /// u > 0: real and imaginary part.
+    /// Returns the point in coordinates in which an edge runs from 0 to 1 and the third vertex is
+    /// `t + iu` with u > 0: real and imaginary part.
     fn place(&self, t: f64, u: f64) -> (f64, f64) {
         let [w0, w1, w2] = self.weights([(1.0 - t).hypot(u), t.hypot(u), 1.0]);
         let total = w0 + w1 + w2;
@@ -21,15 +22,15 @@ pub trait DualPoint: Sync {
     }
 }
 
-/// All dual points by name, the default first.
+/// The table of all dual points; the first is the default.
 pub static DUAL_POINTS: &[&dyn DualPoint] = &[&Barycentre, &Circumcentre, &Incentre];
 
-/// The dual point of that name.
+/// Returns the dual point with this name.
 pub fn dual_point(name: &str) -> Option<&'static dyn DualPoint> {
     DUAL_POINTS.iter().copied().find(|d| d.name() == name)
 }
 
-/// The mean of the vertices: Re ρ > 0 on every mesh.
+/// The mean of the vertices; Re ρ > 0 on every mesh.
 pub struct Barycentre;
 
 impl DualPoint for Barycentre {
@@ -46,8 +47,10 @@ impl DualPoint for Barycentre {
     }
 }
 
-/// The centre of the circumscribed circle: `½ + ½ i cot γ` from an edge with the opposite angle γ, hence
-/// ρ = ½(cot α + cot β), real, negative where α + β > π (§2.3 of the paper, corrected by ½).
+/// The centre of the circumscribed circle.
+///
+/// From an edge with opposite angle γ it is at `½ + ½ i cot γ`, hence ρ = ½(cot α + cot β), which
+/// is real, and negative if α + β > π (§2.3 of the paper, corrected by the factor ½).
 pub struct Circumcentre;
 
 impl DualPoint for Circumcentre {
@@ -64,7 +67,7 @@ impl DualPoint for Circumcentre {
         [a * (b + c - a), b * (c + a - b), c * (a + b - c)]
     }
 
-    // The weights cancel in flat triangles; this does not, and makes Im ρ exactly 0.
+    // In flat triangles the weights cancel. This formula does not, and makes Im ρ exactly 0.
     fn place(&self, t: f64, u: f64) -> (f64, f64) {
         (0.5, (u * u - t * (1.0 - t)) / (2.0 * u))
     }
@@ -87,7 +90,7 @@ impl DualPoint for Incentre {
     }
 }
 
-/// Where a boundary edge has its dual vertex.
+/// The position of the dual vertex of a boundary edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BoundaryDual {

@@ -5,10 +5,10 @@ use crate::surface::edges::{Edges, next_in};
 use crate::surface::oriented_mesh::OrientedMesh;
 
 impl QuadGraph {
-    /// The quads of a quad mesh as they are, ρ extrinsic, or measured on given tangent planes.
+    /// Makes the quad graph of a quad mesh, with ρ extrinsic or measured on given tangent planes.
     ///
     /// # Errors
-    /// A face whose diagonals give no ρ.
+    /// A face whose diagonals do not define ρ.
     pub fn from_quads(disc: &OrientedMesh, planes: Option<&TangentPlanes>) -> Result<Self, QuadGraphError> {
         let mut graph = QuadGraph {
             vertices: disc.positions.len(),
@@ -46,7 +46,7 @@ impl QuadGraph {
     }
 }
 
-/// The rest length of the edge from each boundary vertex to the next.
+/// Returns the rest length of the edge from each boundary vertex to the next.
 fn boundary_lengths(disc: &OrientedMesh, planes: Option<&TangentPlanes>) -> Vec<f64> {
     let n = disc.boundary.len();
     let ahead = |k: usize| difference(&disc.positions, disc.boundary[k], disc.boundary[(k + 1) % n]);

@@ -7,17 +7,19 @@ use crate::surface::edges::{Edges, next_in};
 use crate::surface::oriented_mesh::OrientedMesh;
 
 impl QuadGraph {
-    /// The quad graph of a triangle mesh: a dual vertex per face and per boundary edge; each edge vi → vj, with face f
-    /// on its left and g on its right, gives the quad (vi, c_g, vj, c_f) with the two triangles unfolded into a plane.
+    /// Makes the quad graph of a triangle mesh, with a dual vertex for each face and for each
+    /// boundary edge.
     ///
-    /// Seen from the edge as 0 → 1, c_f = s + ih and (from the other end) c_g = s' + ih' give
+    /// Each edge vi → vj with face f on its left and g on its right gives the quad (vi, c_g, vj,
+    /// c_f), with the two triangles unfolded into a plane. In coordinates in which the edge is 0 →
+    /// 1, c_f = s + ih and (from the other end) c_g = s' + ih' give
     ///
     /// ```text
     /// ρ = (c_f − c_g) / i = (h + h') − i (s + s' − 1)
     /// ```
     ///
-    /// On a boundary edge c_g is the dual vertex on it. Vertices: the mesh's, then one per face, then one per boundary
-    /// edge in the order of the boundary.
+    /// On a boundary edge c_g is the dual vertex on it. The vertices are those of the mesh, then
+    /// one per face, then one per boundary edge in the order of the boundary.
     ///
     /// # Errors
     /// A triangle without area; a perpendicular that misses its boundary edge.
@@ -91,7 +93,7 @@ impl QuadGraph {
     }
 }
 
-/// The vertices, the barycentres of the faces, the midpoints of the boundary edges.
+/// Returns the vertices, the barycentres of the faces and the midpoints of the boundary edges.
 fn places(disc: &OrientedMesh) -> Vec<[f64; 3]> {
     let mean = |vertices: &[u32]| {
         let sum = vertices.iter().fold([0.0; 3], |sum, &v| add(sum, disc.positions[v as usize]));
@@ -104,7 +106,8 @@ fn places(disc: &OrientedMesh) -> Vec<[f64; 3]> {
     places
 }
 
-/// The dual point of each corner's face, seen from the corner's edge: (s, h), in units of the edge.
+/// Returns for each corner the dual point (s, h) of its face, in coordinates in which the corner's
+/// edge is 0 → 1.
 pub(super) fn place_dual_points(disc: &OrientedMesh, dual: &dyn DualPoint) -> Result<Vec<(f64, f64)>, QuadGraphError> {
     let mut placed = Vec::with_capacity(disc.faces.corners().len());
     for (face, polygon) in disc.faces.iter().enumerate() {

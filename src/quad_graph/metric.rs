@@ -1,4 +1,4 @@
-//! Rest lengths, areas and triangles, which energies compare a map with.
+//! Rest lengths, areas and triangles, with which energies compare a map.
 
 use super::dual::DualPoint;
 use super::triangles::{RestTriangle, rest_triangles};
@@ -9,24 +9,26 @@ use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Lengths and areas at rest, in the unit of the positions.
 ///
-/// The edges are those of the quad graph: on a triangle mesh from each vertex to the dual points around it, measured
-/// within the face, and the halves of the boundary edges.
+/// The edges are those of the quad graph. On a triangle mesh these join each vertex to the dual
+/// points around it, measured within the faces; boundary edges are halved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RestMetric {
     /// The edges of the quad graph (`ne × 2`).
     pub edges: Vec<[u32; 2]>,
-    /// Their lengths (`ne`).
+    /// The lengths of the edges (`ne`).
     pub length: Vec<f64>,
-    /// Half of the adjacent quads' areas, for each edge (`ne`).
+    /// Half of the total area of the quads at each edge (`ne`).
     pub area: Vec<f64>,
-    /// ½ (|(v3−v0)×(v2−v0)| + |(v2−v0)×(v1−v0)|) of each quad (`nf`): its area folded along d02.
+    /// ½ (|(v3−v0)×(v2−v0)| + |(v2−v0)×(v1−v0)|) of each quad (`nf`): the area of the quad folded
+    /// along d02.
     pub folded_area: Vec<f64>,
     /// The triangles of the mesh, or of the corners of its quads.
     pub triangles: Vec<RestTriangle>,
 }
 
 impl RestMetric {
-    /// The metric of a quad mesh: lengths in R³, or as `planes`, with which the graph was made, say.
+    /// Makes the metric of a quad mesh, with lengths in R³ or as `planes` specify; these must be
+    /// the planes of the graph.
     pub fn of_quads(disc: &OrientedMesh, graph: &QuadGraph, planes: Option<&TangentPlanes>) -> Self {
         let edges = Edges::new(&disc.faces, disc.positions.len());
         let projected = planes.filter(|planes| planes.rest == RestSource::Projected);
@@ -40,7 +42,7 @@ impl RestMetric {
             })
             .collect();
         let quads = |e: usize| edges.corners(e).iter().map(|&c| edges.face_of_corner[c as usize] as usize);
-        // The areas that weigh a quad's edges: projected ones come with ρ.
+        // The areas that weight a quad's edges; projected areas are consistent with ρ.
         let area_of = |q: usize| match planes {
             Some(TangentPlanes { rest: RestSource::Unit, .. }) => folded_area[q],
             _ => graph.area(q),
@@ -67,7 +69,8 @@ impl RestMetric {
         self.triangles.iter().map(|t| t.area).sum()
     }
 
-    /// The same with triangles at the corners of quads whose angle is 0 or π, or that have an edge without length.
+    /// Replaces triangles without area at corners of quads: those with angle 0 or π, or with an
+    /// edge of length zero.
     #[must_use]
     pub fn with_open_corners(self, disc: &OrientedMesh, planes: Option<&TangentPlanes>) -> Self {
         match disc.faces.arity() {
@@ -76,10 +79,10 @@ impl RestMetric {
         }
     }
 
-    /// The metric of a triangle mesh's quad graph, made with the same dual points.
+    /// Makes the metric of the quad graph of a triangle mesh, with the same dual points.
     ///
     /// # Errors
-    /// Those of [`QuadGraph::from_triangles`].
+    /// Errors of [`QuadGraph::from_triangles`].
     pub fn of_triangles(disc: &OrientedMesh, graph: &QuadGraph, dual: &dyn DualPoint) -> Result<Self, QuadGraphError> {
         let placed = super::from_triangles::place_dual_points(disc, dual)?;
         let edges = Edges::new(&disc.faces, disc.positions.len());
@@ -95,8 +98,8 @@ impl RestMetric {
         for f in 0..disc.faces.len() {
             let range = disc.faces.corner_range(f);
             for c in range.clone() {
-                // The edge from the vertex at c to the face's dual point lies between the quads of the two mesh edges
-                // that meet there.
+                // The edge from the vertex at c to the dual point of the face lies between the
+                // quads of the two mesh edges that meet at the vertex.
                 let before = if c == range.start { range.end - 1 } else { c - 1 };
                 let quads = [c, before].map(|c| edges.of_corner[c] as usize);
                 let length = graph.diagonal[quads[0]];
@@ -115,7 +118,8 @@ impl RestMetric {
             }
         }
         for k in 0..n {
-            // Mesh vertices and dual vertices alternate; both halves belong to the quad of the mesh edge.
+            // Mesh vertices and dual vertices alternate; both halves belong to the quad of the mesh
+            // edge.
             let mesh_vertex = graph.boundary[k - k % 2];
             metric.edges.push([graph.boundary[k], graph.boundary[(k + 1) % n]]);
             metric.length.push(graph.boundary_length[k]);

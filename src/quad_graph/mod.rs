@@ -1,4 +1,5 @@
-//! The quad graph: vertices, quads, one complex number ρ per quad. All that the energies and system (2) know.
+//! The quad graph: vertices, quads and one complex number ρ per quad, on which the energies and
+//! system (2) are defined.
 
 mod curvature;
 pub mod dual;
@@ -23,43 +24,47 @@ use num_complex::Complex64;
 
 use crate::geometry::vector;
 
-/// A quad graph with the rest geometry that a map is compared with.
+/// A quad graph with the rest geometry of its quads and boundary.
 ///
-/// For a disc the counts satisfy `2 (nv − nf) = nb + 2`: system (2) lacks `nb + 2` real equations.
+/// For a disc `2 (nv − nf) = nb + 2`: system (2) lacks `nb + 2` real equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QuadGraph {
     /// Number of vertices, `nv`.
     pub vertices: usize,
-    /// Vertices `0 .. primal` are those of the mesh; the others are dual vertices of a triangle mesh.
+    /// Vertices `0 .. primal` are those of the mesh; the others are dual vertices of a triangle
+    /// mesh.
     pub primal: usize,
     /// Vertices (v0, v1, v2, v3) of each quad, counter-clockwise (`nf × 4`).
     pub quads: Vec<[u32; 4]>,
-    /// ρ of each quad (`nf`): `z3 − z1 = iρ(z2 − z0)` where z is conformal (2).
+    /// ρ of each quad (`nf`): z is conformal if `z3 − z1 = iρ(z2 − z0)` (2).
     pub rho: Vec<Complex64>,
-    /// |d02| of each quad at rest (`nf`), the unit of the positions. Its area is ½ Re ρ |d02|².
+    /// d02| of each quad at rest (`nf`), in the unit of the positions. The area of the quad is ½ Re ρ |d02|².
     pub diagonal: Vec<f64>,
-    /// Quads whose given normal was tilted to keep ρ away from 0 and ∞; see [`TangentPlanes::guarded`].
+    /// Number of quads whose given normal was tilted to keep ρ away from 0 and ∞; see
+    /// [`TangentPlanes::guarded`].
     pub tilted: usize,
-    /// The boundary loops one behind the other, each with the surface on its left (`nb`).
+    /// The concatenated boundary loops, each with the surface on its left (`nb`).
     pub boundary: Vec<u32>,
-    /// The positions in `boundary` of every loop, the outer one first: one for a disc, none for a closed surface.
+    /// The range of each loop in `boundary`, the outer loop first; one for a disc, none for a
+    /// closed surface.
     pub loops: Vec<Range<usize>>,
     /// Rest length of the edge from each boundary vertex to the next (`nb`).
     pub boundary_length: Vec<f64>,
-    /// About where each vertex is in space (`nv × 3`): tells how to number unknowns, and has no part in any map.
+    /// Approximate position of each vertex in space (`nv × 3`). It is used only to order unknowns
+    /// and does not influence the map.
     pub places: Vec<[f64; 3]>,
 }
 
-/// The geometry of a mesh gives no usable ρ.
+/// The geometry of a mesh does not define ρ.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum QuadGraphError {
-    /// Faces of a number of corners that the method does not take.
+    /// The faces are neither triangles nor quads.
     #[error("the faces have {corners} corners each; triangles or quads are needed: triangulate them")]
     Corners {
-        /// Corners of each face.
+        /// Number of corners of each face.
         corners: usize,
     },
-    /// A quad whose diagonals span no area.
+    /// The diagonals of a quad span no area.
     #[error(
         "face {face} is degenerate: its diagonals, of vertices {vertices:?}, are parallel, without length, or beyond \
          the range of doubles, and ρ is not defined: move or remove a vertex"
@@ -67,10 +72,10 @@ pub enum QuadGraphError {
     DegenerateQuad {
         /// The face.
         face: usize,
-        /// Its vertices, as the source numbers them.
+        /// Its vertices, as indices of the source.
         vertices: [u32; 4],
     },
-    /// A quad that its normal sees from the side or from below.
+    /// The given normal of a quad is perpendicular to the quad's own or points to its other side.
     #[error(
         "face {face} is seen edge-on or from below along its given normal {normal:?}, and ρ is not defined: correct \
          the normals, or compute ρ from the positions"
@@ -81,7 +86,7 @@ pub enum QuadGraphError {
         /// Its normal.
         normal: [f64; 3],
     },
-    /// A triangle without area.
+    /// A triangle has no area.
     #[error(
         "face {face} is degenerate: its vertices {vertices:?} are on one line or beyond the range of doubles: move or \
          remove a vertex"
@@ -89,10 +94,10 @@ pub enum QuadGraphError {
     DegenerateTriangle {
         /// The face.
         face: usize,
-        /// Its vertices, as the source numbers them.
+        /// Its vertices, as indices of the source.
         vertices: [u32; 3],
     },
-    /// The foot of the perpendicular is not on its boundary edge.
+    /// The foot of a perpendicular does not lie on its boundary edge.
     #[error(
         "the perpendicular from the dual point of face {face} misses its boundary edge {edge:?}: the midpoint of the \
          edge is always on it"
@@ -100,42 +105,43 @@ pub enum QuadGraphError {
     FootOutsideEdge {
         /// The face.
         face: usize,
-        /// Ends of the edge, as the source numbers them.
+        /// The ends of the edge, as indices of the source.
         edge: [u32; 2],
     },
-    /// More vertices than indices can hold.
+    /// The graph has more vertices than 32-bit indices can number.
     #[error("the quad graph would have {vertices} vertices, more than 32-bit indices can number")]
     TooLarge {
-        /// Vertices it would have.
+        /// Number of vertices.
         vertices: usize,
     },
 }
 
 impl QuadGraph {
-    /// Whether `v` is a dual vertex, of no place on the mesh.
+    /// Whether `v` is a dual vertex rather than a vertex of the mesh.
     pub fn is_dual(&self, v: u32) -> bool {
         v as usize >= self.primal
     }
 
-    /// The smallest Re ρ; positive where integral weights are defined.
+    /// The smallest Re ρ; integral weights are defined if it is positive.
     pub fn min_re_rho(&self) -> f64 {
         self.rho.iter().map(|rho| rho.re).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether every ρ is real: diagonals at right angles, as circumcentres make them.
+    /// Whether every ρ is real, that is, all diagonals are orthogonal, as with circumcentres.
     pub fn is_orthogonal(&self) -> bool {
         self.rho.iter().all(|rho| rho.im == 0.0)
     }
 
-    /// ½ |d02 × d13| = ½ Re ρ |d02|², the rest area of quad `q`.
+    /// The rest area ½ |d02 × d13| = ½ Re ρ |d02|² of quad `q`.
     pub fn area(&self, q: usize) -> f64 {
         0.5 * self.rho[q].re * self.diagonal[q] * self.diagonal[q]
     }
 
-    /// Vertices connected by diagonals: a label for each vertex and the number of classes.
+    /// Finds the classes of vertices connected by diagonals: a label for each vertex, and the
+    /// number of classes.
     ///
-    /// (2) sees a map through the diagonals alone, so each class can be translated without notice. A disc has two:
-    /// black (the mesh's own vertices, of a triangle mesh) and white.
+    /// System (2) involves only differences along diagonals, so each class can be translated
+    /// freely. A disc has two classes: black (for a triangle mesh, its own vertices) and white.
     pub fn diagonal_classes(&self) -> (Vec<u32>, usize) {
         let mut classes = crate::surface::UnionFind::new(self.vertices);
         for &[v0, v1, v2, v3] in &self.quads {
@@ -145,7 +151,7 @@ impl QuadGraph {
         classes.labels()
     }
 
-    /// The quads around every vertex.
+    /// Finds the quads around every vertex.
     pub fn incidence(&self) -> Incidence {
         let mut offsets = vec![0u32; self.vertices + 1];
         for &v in self.quads.iter().flatten() {
@@ -184,12 +190,12 @@ impl Incidence {
     }
 }
 
-/// x_b − x_a
+/// x_b − x_a.
 fn difference(positions: &[[f64; 3]], a: u32, b: u32) -> [f64; 3] {
     vector::sub(positions[b as usize], positions[a as usize])
 }
 
-/// The one loop of a boundary of `n` vertices; none where there is no boundary.
+/// The single loop of a boundary of `n` vertices; none if n is 0.
 fn one_loop(n: usize) -> Vec<Range<usize>> {
     std::iter::once(0..n).filter(|whole| !whole.is_empty()).collect()
 }

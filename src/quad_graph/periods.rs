@@ -5,39 +5,41 @@ use crate::surface::edges::{Edges, next_in};
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::homology::Homology;
 
-/// How the corners of quads and faces lie in the universal cover of a torus: a map with the periods ω1, ω2 has the vertex v
-/// at `z_v + m ω1 + n ω2` where its offset is `[m, n]`.
+/// Offsets of the corners of quads and faces in the universal cover of a torus.
 ///
-/// A dual vertex of a triangle mesh lies in the frame of its face, that of the face's first corner.
+/// If the map has the periods ω1, ω2 and a corner has vertex v and offset `[m, n]`, its image is
+/// `z_v + m ω1 + n ω2`. A dual vertex of a triangle mesh is in the frame of its face, which is that
+/// of the face's first corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Periods {
-    /// Of the corners of every quad, relative to the first (`nf × 4`; the first is `[0, 0]`).
+    /// Offsets of the corners of every quad relative to the first (`nf × 4`; the first is `[0,
+    /// 0]`).
     pub quads: Vec<[[i32; 2]; 4]>,
-    /// Of the corners of every face of the mesh, relative to its first.
+    /// Offsets of the corners of every face of the mesh relative to its first corner.
     pub corners: Vec<[i32; 2]>,
 }
 
-/// No offsets.
+/// The offsets cannot be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PeriodsError {
-    /// A quad graph of another mesh.
+    /// The quad graph belongs to a different mesh.
     #[error("the quad graph is not that of the mesh: quad {quad} does not fit")]
     OtherMesh {
         /// The first such quad.
         quad: usize,
     },
-    /// A change of basis beyond 32-bit integers.
+    /// A change of basis leads to offsets beyond 32-bit integers.
     #[error(
         "the periods are so unequal that the offset {offset:?} leaves the range of 32-bit integers in the new basis"
     )]
     OutOfRange {
-        /// An offset in the old basis.
+        /// The offset in the old basis.
         offset: [i32; 2],
     },
 }
 
 impl Periods {
-    /// The offsets of `graph`, made of `disc` with the given edges.
+    /// Computes the offsets of `graph`, which was made from `disc` with the given edges.
     ///
     /// # Errors
     /// [`PeriodsError::OtherMesh`].
@@ -74,7 +76,8 @@ impl Periods {
         }
     }
 
-    /// The quad (vi, c_g, vj, c_f) of the edge of the corner c of f and the corner d of g.
+    /// Offsets of the quad (vi, c_g, vj, c_f) at the edge of corner c of face f and corner d of
+    /// face g.
     fn of_triangles(
         &self,
         disc: &OrientedMesh,
@@ -97,7 +100,7 @@ impl Periods {
             if graph.quads[e] != [vertex[c], dual(g), vertex[ahead[0]], dual(f)] || vertex[ahead[1]] != vertex[c] {
                 return Err(other_mesh);
             }
-            // vi is the corner c of f, and of g the one behind d.
+            // vi is at corner c of f, and at the corner after d of g.
             let minus = |offset: [i32; 2]| offset.map(|x| -x);
             let along = homology.form[c].map(i32::from);
             quads.push([[0, 0], minus(self.corners[ahead[1]]), along, minus(self.corners[c])]);
@@ -105,8 +108,8 @@ impl Periods {
         Ok(quads)
     }
 
-    /// The offsets by the basis `(ω2', ω1')ᵀ = M (ω2, ω1)ᵀ`, M = [[a, b], [c, d]] of determinant 1: an offset [m, n] becomes
-    /// [a m − b n, d n − c m].
+    /// Transforms the offsets to the basis `(ω2', ω1')ᵀ = M (ω2, ω1)ᵀ`, where M = [[a, b], [c, d]]
+    /// has determinant 1: an offset [m, n] becomes [a m − b n, d n − c m].
     ///
     /// # Errors
     /// [`PeriodsError::OutOfRange`].
@@ -122,12 +125,12 @@ impl Periods {
         Ok(())
     }
 
-    /// `m ω1 + n ω2`.
+    /// The translation `m ω1 + n ω2`.
     pub fn translation([m, n]: [i32; 2], [omega1, omega2]: [Complex64; 2]) -> Complex64 {
         f64::from(m) * omega1 + f64::from(n) * omega2
     }
 
-    /// The corners of quad `q` under the map that is z in the cover's fundamental domain and has the periods ω.
+    /// The images of the corners of quad `q` under the map with vertex values z and periods ω.
     pub fn lifted(&self, graph: &QuadGraph, q: usize, z: &[Complex64], omega: [Complex64; 2]) -> [Complex64; 4] {
         let (quad, offsets) = (&graph.quads[q], &self.quads[q]);
         [0, 1, 2, 3].map(|k| z[quad[k] as usize] + Self::translation(offsets[k], omega))

@@ -1,4 +1,5 @@
-//! The triangles of the mesh at rest, which the energies of maps without folds compare a map with.
+//! The triangles of the mesh at rest, with which the energies of maps without flipped faces compare
+//! a map.
 
 use num_complex::Complex64;
 
@@ -7,41 +8,47 @@ use crate::geometry::vector::{cross, dot, norm};
 use crate::surface::Surrogates;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// A triangle at rest: a face, or the triangle that a corner of a quad makes with its neighbours.
+/// A triangle at rest: a face, or the triangle of a corner of a quad and its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestTriangle {
     /// Its vertices, counter-clockwise.
     pub vertices: [u32; 3],
-    /// Where the third vertex is when the first is at 0 and the second at 1. Im w > 0, but where the triangle has no area.
+    /// The position of the third vertex if the first is at 0 and the second at 1. Im w > 0 unless
+    /// the triangle has no area.
     pub w: Complex64,
     /// The length of the edge from the first vertex to the second.
     pub length: f64,
-    /// What it counts for: the area of a triangle; of a corner of a quad half of it, as the four of a flat quad cover it twice.
+    /// The integral weight: the area of a triangle; for a corner of a quad half of its area,
+    /// because the four corners of a flat quad cover it twice.
     pub area: f64,
-    /// What it counts for where every face counts for 1, one with a surrogate for the height of that.
+    /// The unit weight, by which every face counts for 1, and a face with a surrogate for the
+    /// surrogate's height.
     pub share: f64,
-    /// Its face, as the source numbers them.
+    /// Its face, as an index of the source.
     pub face: u32,
 }
 
 impl RestTriangle {
-    /// Whether it has a shape.
+    /// Whether the triangle has a positive finite area.
     pub fn is_proper(&self) -> bool {
         self.w.im > 0.0 && self.w.is_finite() && self.length > 0.0 && self.area > 0.0 && self.area.is_finite()
     }
 }
 
-/// The triangles of a disc: its faces, or the four corners of each of its quads, projected on `planes` where these are given.
+/// Returns the triangles of a disc: its faces, or the four corners of each of its quads, projected
+/// to `planes` if given.
 ///
-/// A corner of a quad may have no area where the quad has: its angle is 0 or π, or one of its edges has no length. With `opened` it is given
-/// one, as [`Surrogates`] give it to triangles.
+/// A corner of a quad can have no area although the quad has: its angle is 0 or π, or one of its
+/// edges has no length. With `opened` it is given an area in the same way as [`Surrogates`] do for
+/// triangles.
 pub(super) fn rest_triangles(disc: &OrientedMesh, planes: Option<&TangentPlanes>, opened: bool) -> Vec<RestTriangle> {
     let mut triangles = Vec::with_capacity(disc.faces.corners().len());
     (0..disc.faces.len()).for_each(|f| triangles.extend(triangles_of_face(disc, planes, opened, f)));
     triangles
 }
 
-/// The triangles of face `f`: itself, or the four corners of a quad; `opened` as with all.
+/// Returns the triangles of face `f`: the face itself, or the four corners of a quad; `opened` as
+/// for [`rest_triangles`].
 pub(crate) fn triangles_of_face<'a>(
     disc: &'a OrientedMesh,
     planes: Option<&'a TangentPlanes>,
