@@ -1,4 +1,4 @@
-//! The linear problem: system (2), weights, constraints.
+//! The linear problem: system (2), weights and constraints.
 
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 use num_complex::Complex64;
@@ -7,22 +7,23 @@ use crate::constraint::{ConstraintError, Elimination, Fixed};
 use crate::energy::conformal::{self, NonPositiveRho, Weight};
 use crate::quad_graph::QuadGraph;
 
-/// Minimise H over the maps that hold some vertices; H = 0, so (2) itself, where there are just enough of them.
+/// The problem of minimising H over the maps with some vertices pinned. If just enough are pinned,
+/// the minimum is H = 0, that is, (2) holds.
 #[derive(Clone, Debug)]
 pub struct LinearProblem<'a> {
-    /// Quads and ρ.
+    /// The quad graph with its ρ.
     pub graph: &'a QuadGraph,
-    /// How the quads are weighted in H.
+    /// The weights of the quads in H.
     pub weight: Weight,
-    /// z = Z y + z0.
+    /// The elimination of pinned vertices, z = Z y + z0.
     pub elimination: Elimination,
 }
 
 impl<'a> LinearProblem<'a> {
-    /// The problem with the vertices in `fixed` held.
+    /// Makes the problem in which the vertices in `fixed` are pinned.
     ///
     /// # Errors
-    /// Constraints that leave freedoms, or that name vertices that do not exist.
+    /// Constraints that do not determine the map, or pinned vertices that do not exist.
     pub fn new(graph: &'a QuadGraph, weight: Weight, fixed: &Fixed) -> Result<Self, ConstraintError> {
         fixed.determine(graph)?;
         Ok(LinearProblem { graph, weight, elimination: Elimination::for_factor(graph, fixed) })
@@ -33,17 +34,19 @@ impl<'a> LinearProblem<'a> {
         self.graph.quads.len() == self.elimination.unknowns()
     }
 
-    /// Whether every boundary vertex is held. Then K, which lives on the boundary alone, drops out, and with integral
-    /// weights the normal equations are real.
+    /// Whether every boundary vertex is pinned. K, which involves only boundary vertices, then does
+    /// not enter, and with integral weights the normal equations are real.
     pub fn holds_whole_boundary(&self) -> bool {
         self.graph.boundary.iter().all(|&v| !self.elimination.is_free(v))
     }
 
-    /// The weight of every quad. Where (2) is square its solution is the minimum under any positive weights; then unit
-    /// weights stand in for integral ones that are undefined.
+    /// Returns the weight of every quad.
+    ///
+    /// If (2) is square, its solution is the minimum for any positive weights, and unit weights
+    /// replace integral ones that are undefined.
     ///
     /// # Errors
-    /// Integral weights where some Re ρ ≤ 0 and (2) is not square.
+    /// Integral weights if some Re ρ ≤ 0 and (2) is not square.
     pub fn weights(&self) -> Result<Vec<f64>, NonPositiveRho> {
         match conformal::weights(self.graph, self.weight) {
             Err(_) if self.is_square() => conformal::weights(self.graph, Weight::Unit),
@@ -51,7 +54,8 @@ impl<'a> LinearProblem<'a> {
         }
     }
 
-    /// System (2) on the free unknowns: `A Z y = −A z0`, the matrix (`nf × m`) and the right-hand side (`nf`).
+    /// Returns system (2) on the free unknowns, `A Z y = −A z0`: the matrix (`nf × m`) and the
+    /// right-hand side (`nf`).
     pub fn reduced_system(&self) -> (CscMatrix<Complex64>, Vec<Complex64>) {
         let elimination = &self.elimination;
         let mut a_z = CooMatrix::new(self.graph.quads.len(), elimination.unknowns());
@@ -66,17 +70,18 @@ impl<'a> LinearProblem<'a> {
         (CscMatrix::from(&a_z), right.collect())
     }
 
-    /// How well `z` solves the problem, relative to the size of the terms that cancel.
+    /// Returns the residual of `z` relative to the size of the terms that cancel.
     ///
-    /// Where (2) is square: the largest `|r| / (|z3| + |z1| + |ρ|(|z2| + |z0|))` over the quads. Otherwise the largest
-    /// entry of the normal equations `Aᴴ W A z` at a free vertex, relative to `|Aᴴ| W |A| |z|`.
+    /// If (2) is square, this is the largest `|r| / (|z3| + |z1| + |ρ|(|z2| + |z0|))` over the
+    /// quads. Otherwise it is the largest entry of the normal equations `Aᴴ W A z` at a free
+    /// vertex, relative to `|Aᴴ| W |A| |z|`.
     ///
     /// # Errors
-    /// Integral weights where some Re ρ ≤ 0.
+    /// Integral weights if some Re ρ ≤ 0.
     pub fn residual(&self, z: &[Complex64]) -> Result<f64, NonPositiveRho> {
         let graph = self.graph;
         let worst = |ratios: &mut dyn Iterator<Item = f64>| {
-            // `f64::max` would pass over a NaN.
+            // `f64::max` would ignore a NaN.
             ratios.fold(0.0, |a: f64, b| if a.is_nan() || a >= b { a } else { b })
         };
         if self.is_square() {
@@ -98,7 +103,7 @@ fn relative(a: f64, b: f64) -> f64 {
     if a == 0.0 { 0.0 } else { a / b }
 }
 
-/// System (2) as a matrix A with `A z = 0` for conformal z (`nf × nv`, complex).
+/// Returns the matrix A of system (2), `A z = 0` for conformal z (`nf × nv`, complex).
 pub fn system(graph: &QuadGraph) -> CscMatrix<Complex64> {
     let mut a = CooMatrix::new(graph.quads.len(), graph.vertices);
     for (q, quad) in graph.quads.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The problems that solvers are handed: linear ones, and minimisations of energies.
+//! The problems that solvers solve: linear ones, and minimisations of energies.
 
 pub mod linear;
 pub mod nonlinear;

@@ -1,4 +1,5 @@
-//! The nonlinear problem: a weighted sum of energies over the unknowns that the constraints leave.
+//! The nonlinear problem: a weighted sum of energies as a function of the unknowns that constraints
+//! leave.
 
 use num_complex::Complex64;
 
@@ -10,18 +11,19 @@ use crate::sparse::{Analysis, Breakdown, Columns, Pattern, Stencils, pairs_of};
 /// Energies with their coefficients.
 pub type Terms = Vec<(f64, Box<dyn Energy>)>;
 
-/// `E(y) = Σ coefficient × energy(x(y))`: all that a backend may know.
+/// The objective `E(y) = Σ coefficient × energy(x(y))`. It is all that a minimiser knows of the
+/// problem.
 pub struct Objective {
     /// The energies with their coefficients.
     pub terms: Terms,
     /// The unknowns.
     pub freedoms: Freedoms,
-    /// What the size of a step is measured by.
+    /// The norm in which steps are measured.
     pub norm: Dirichlet,
 }
 
 impl Objective {
-    /// E(y); +∞ where y is not admitted, or vertices on the circle are out of order.
+    /// Returns E(y); +∞ if y is not admissible or vertices on the circle are out of order.
     pub fn value(&self, y: &[f64]) -> f64 {
         if !self.freedoms.is_in_order(y) {
             return f64::INFINITY;
@@ -30,25 +32,26 @@ impl Objective {
         self.terms.iter().map(|(t, energy)| t * energy.value(&z)).sum()
     }
 
-    /// The energies without their coefficients.
+    /// Returns the values of the energies without their coefficients.
     pub fn values(&self, y: &[f64]) -> Vec<(&'static str, f64)> {
         let z = self.freedoms.expand(y);
         self.terms.iter().map(|(_, energy)| (energy.name(), energy.value(&z))).collect()
     }
 
-    /// Whether there are clearly more squares than unknowns, as with A or L beside H: the minimum is then not 0 and there
-    /// are others, folded ones. H + C and H + L' have about as many as unknowns.
+    /// Whether there are clearly more squares than unknowns, as with A or L in addition to H. The
+    /// minimum is then not 0, and there are other local minima with flipped faces. H + C and H + L'
+    /// have about as many squares as unknowns.
     pub fn is_overdetermined(&self) -> bool {
         let squares: usize = self.terms.iter().map(|(_, energy)| energy.residual_count()).sum();
         4 * squares > 5 * self.freedoms.unknowns()
     }
 
-    /// ∇E(y) (`m`).
+    /// Returns the gradient ∇E(y) (`m`).
     pub fn gradient(&self, y: &[f64]) -> Vec<f64> {
         self.gradient_of_map(y, &self.freedoms.expand(y))
     }
 
-    /// The derivatives at the map z in the directions that the unknowns have at y (`m`).
+    /// Returns the derivatives at the map z in the directions of the unknowns at y (`m`).
     pub fn gradient_of_map(&self, y: &[f64], z: &[Complex64]) -> Vec<f64> {
         self.freedoms.restrict_gradient(y, &self.gradient_at(z))
     }
@@ -62,7 +65,8 @@ impl Objective {
         g
     }
 
-    /// `Zᵀ Σ 2 r″ ∇r` with r″ the second derivatives of the residuals along p: the bending of the energy's valleys.
+    /// Returns `Zᵀ Σ 2 r″ ∇r`, where r″ are the second derivatives of the residuals along p: the
+    /// right-hand side of geodesic acceleration.
     pub fn bending(&self, y: &[f64], p: &[f64]) -> Vec<f64> {
         let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(y, p));
         let mut g = vec![Complex64::ZERO; z.len()];
@@ -72,21 +76,23 @@ impl Objective {
         self.freedoms.restrict_gradient(y, &g)
     }
 
-    /// |J p|², J the Jacobian of all residuals, coefficients' roots included, at y.
+    /// Returns |J p|², where J is the Jacobian at y of all residuals, multiplied by the square
+    /// roots of their coefficients.
     pub fn stretch(&self, y: &[f64], p: &[f64]) -> Option<f64> {
         let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(y, p));
         self.terms.iter().map(|(t, energy)| Some(t * energy.stretch(&z, &d)?)).sum()
     }
 
-    /// How far one may go from y along p before E is no longer finite, but for rounding; see [`Energy::largest_step`].
-    /// Where vertices slide on a circle, of the path's tangent.
+    /// Returns the largest step from y along p for which E is finite, up to rounding; see
+    /// [`Energy::largest_step`]. If vertices slide on a circle, the step is along the tangent of
+    /// their path.
     pub fn largest_step(&self, y: &[f64], p: &[f64]) -> f64 {
         let (z, d) = (self.freedoms.expand(y), self.freedoms.expand_direction(y, p));
         let order = self.freedoms.largest_step(y, p);
         self.terms.iter().map(|(_, energy)| energy.largest_step(&z, &d)).fold(order, f64::min)
     }
 
-    /// The coefficients of `t ↦ E(y + t p)`, where that is a polynomial.
+    /// Returns the coefficients of `t ↦ E(y + t p)`, if it is a polynomial.
     pub fn along(&self, y: &[f64], p: &[f64]) -> Option<Polynomial> {
         if self.freedoms.slides() {
             return None;
@@ -100,19 +106,22 @@ impl Objective {
     }
 }
 
-/// Assembles Hessians of an objective on a pattern that is made once; the part that never changes is assembled once.
+/// Assembles Hessians of an objective on a pattern that is made once; constant parts are also
+/// assembled once.
 pub struct HessianAssembly<'a> {
     objective: &'a Objective,
     stencils: Vec<Stencils>,
     pattern: Pattern,
-    /// For each entry of the pattern over vertices, how many rows stand before it in its column of the real matrix.
+    /// For each entry of the pattern over vertices, the number of rows before it in its column of
+    /// the real matrix.
     rows_before: Vec<u32>,
     columns: Columns,
     constant: Vec<f64>,
 }
 
 impl<'a> HessianAssembly<'a> {
-    /// Makes the pattern: vertices of one piece are coupled, with as many rows and columns each as it has unknowns.
+    /// Makes the pattern. Vertices of one piece are coupled, each with as many rows and columns as
+    /// it has unknowns.
     pub fn new(objective: &'a Objective) -> Self {
         let freedoms = &objective.freedoms;
         let vertices = freedoms.offset.len() - 1;
@@ -160,7 +169,8 @@ impl<'a> HessianAssembly<'a> {
         &self.columns
     }
 
-    /// Elimination tree and fill of the pattern: in the order of [`Freedoms::elimination`], or of minimum degree.
+    /// Returns the elimination tree and fill of the pattern, in the order of
+    /// [`Freedoms::elimination`] or by minimum degree.
     ///
     /// # Errors
     /// [`Breakdown::TooLarge`].
@@ -174,14 +184,14 @@ impl<'a> HessianAssembly<'a> {
         Analysis::permuted(&self.columns, &order)
     }
 
-    /// The values of ∇²E(y) on the pattern.
+    /// Returns the values of ∇²E(y) on the pattern.
     pub fn values(&self, y: &[f64], curvature: Curvature) -> Vec<f64> {
         let mut values = Vec::new();
         self.write_values(y, curvature, &mut values);
         values
     }
 
-    /// Writes the values of ∇²E(y) on the pattern to `values`, whose memory is used again.
+    /// Writes the values of ∇²E(y) on the pattern to `values`, whose memory is reused.
     pub fn write_values(&self, y: &[f64], curvature: Curvature, values: &mut Vec<f64>) {
         values.clone_from(&self.constant);
         let freedoms = &self.objective.freedoms;
@@ -191,7 +201,7 @@ impl<'a> HessianAssembly<'a> {
             self.add(list, *t, energy.as_ref(), (&z, &directions), curvature, values);
         }
         if freedoms.slides() {
-            // ∂²z/∂θ² = −z. Where the energy draws a vertex outwards that is what keeps its steps short.
+            // ∂²z/∂θ² = −z. If the energy pulls a vertex outwards, this term keeps its steps short.
             let g = self.objective.gradient_at(&z);
             for (v, at) in freedoms.angles() {
                 let bend = -(z[v].conj() * g[v]).re;
@@ -203,7 +213,7 @@ impl<'a> HessianAssembly<'a> {
         }
     }
 
-    /// The values on the pattern of the matrix that measures steps from y, [`Objective::norm`].
+    /// Returns the values on the pattern of the matrix of the norm [`Objective::norm`] at y.
     pub fn norm_values(&self, y: &[f64]) -> Vec<f64> {
         let list = self.stencils.len() - 1;
         let mut values = vec![0.0; self.columns.rows.len()];
@@ -243,7 +253,7 @@ impl<'a> HessianAssembly<'a> {
             if slot == Pattern::NONE {
                 continue;
             }
-            // The entry is that of the later vertex's rows in the earlier one's columns.
+            // The entry is in the rows of the later vertex and the columns of the earlier one.
             let (i, j) = if stencil[i] >= stencil[j] { (i, j) } else { (j, i) };
             let (row, column) = (stencil[i], stencil[j]);
             let before = self.rows_before[slot as usize] as usize;
@@ -259,7 +269,8 @@ impl<'a> HessianAssembly<'a> {
         }
     }
 
-    /// The 2 × 2 part of a block for two of its vertices, projected on the direction of those with one unknown.
+    /// The 2 × 2 part of a block for two of its vertices, projected to the direction of a vertex
+    /// with one unknown.
     fn local_block(
         &self,
         block: &Block,
@@ -284,7 +295,7 @@ impl<'a> HessianAssembly<'a> {
     }
 }
 
-/// Whether the second derivatives of an energy with respect to the unknowns are the same everywhere.
+/// Whether the second derivatives of an energy with respect to the unknowns are constant.
 fn is_constant(freedoms: &Freedoms, energy: &dyn Energy) -> bool {
     energy.is_quadratic() && !freedoms.slides()
 }
