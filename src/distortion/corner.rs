@@ -6,12 +6,16 @@ use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::quad_graph::TangentPlanes;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// For every face but those put into holes the largest σ1/σ2 of the triangles that its corners make with their neighbours:
-/// of a triangle its own, of a quad the worst of four. Negative where one of them is turned over, +∞ where one collapses.
+/// Returns for every face, except those that fill holes, the largest σ1/σ2 of the triangles that
+/// its corners form with their neighbours.
 ///
-/// The diagonals of a quad, and with them σ1/σ2 of its [`FaceMap`], do not see what becomes of its angles: a quad at the
-/// corner of a square keeps ρ while its angle of 90° is opened to 180° on a circle. Surfels are measured on their tangent
-/// planes. `maps` are those of [`super::face_maps`].
+/// For a triangle this is its own σ1/σ2, for a quad the worst of four. It is negative if one of the
+/// triangles is flipped and +∞ if one collapses. `maps` are those of [`super::face_maps`].
+///
+/// # Rationale
+/// The diagonals of a quad, and hence the σ1/σ2 of its [`FaceMap`], do not determine its angles: a
+/// quad at the corner of a square keeps ρ while its angle of 90° is opened to 180° on a circle.
+/// Surfels are measured on their tangent planes.
 pub fn corner_errors(disc: &OrientedMesh, planes: Option<&TangentPlanes>, image: &Image, maps: &[FaceMap]) -> Vec<f64> {
     let of_face = |(f, polygon): (usize, &[u32])| {
         if disc.surrogates.has(f) {
@@ -39,13 +43,13 @@ pub fn corner_errors(disc: &OrientedMesh, planes: Option<&TangentPlanes>, image:
     disc.faces.iter().enumerate().take(disc.source_faces()).map(of_face).collect()
 }
 
-/// σ1/σ2; +∞ of what collapses, even where rounding has σ2 < 0 or σ1 = 0.
+/// σ1/σ2; +∞ for triangles that collapse, even if rounding gives σ2 < 0 or σ1 = 0.
 fn signed(sigma1: f64, sigma2: f64) -> f64 {
     let ratio = sigma1 / sigma2;
     if ratio.is_nan() { f64::INFINITY } else { ratio }
 }
 
-/// The worse of two errors: what is turned over is the worst.
+/// The larger of two values of σ1/σ2, where negative values (flipped triangles) are the largest.
 fn worse(a: f64, b: f64) -> f64 {
     match (a < 0.0, b < 0.0) {
         (false, false) | (true, true) => a.max(b),

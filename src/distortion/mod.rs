@@ -1,4 +1,4 @@
-//! How far a map is from being conformal, from preserving area and length, and from being one-to-one.
+//! The distortion of angles, areas and lengths by a map, and its injectivity.
 
 mod corner;
 mod image;
@@ -21,16 +21,17 @@ use crate::quad_graph::{QuadGraph, TangentPlanes};
 use crate::surface::edges::next_in;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// Mean and extreme of a quantity that is 1 (a ratio) or 0 (a residual) for a perfect map.
+/// Mean and maximum of a quantity that is 1 (a ratio) or 0 (a residual) for a perfect map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MeanMax {
     /// Mean over faces, quads or edges.
     pub mean: f64,
-    /// The largest.
+    /// The maximum.
     pub max: f64,
 }
 
-/// The quasi-conformal error σ1/σ2 over the faces that are neither flipped nor collapsed; 1 = conformal.
+/// The quasi-conformal distortion σ1/σ2 over the faces that are neither flipped nor collapsed; 1 is
+/// conformal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct QuasiConformal {
     /// Mean over faces.
@@ -39,40 +40,45 @@ pub struct QuasiConformal {
     pub area_mean: f64,
     /// 99th percentile.
     pub p99: f64,
-    /// The largest.
+    /// The maximum.
     pub max: f64,
 }
 
-/// Everything that a run reports about a map (design: §7). `None` where no face of positive area is left to measure.
+/// The measurements of a map that are reported. Fields are `None` if no face of positive area can
+/// be measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Distortion {
-    /// σ1/σ2.
+    /// The quasi-conformal distortion σ1/σ2.
     pub quasi_conformal: Option<QuasiConformal>,
-    /// max(t, 1/t) with t = σ1 σ2 after scaling the map to the surface's area.
+    /// max(t, 1/t) with t = σ1 σ2, after scaling the map to the surface's area.
     pub area: Option<MeanMax>,
-    /// Mean of σ1² + σ2² + σ1⁻² + σ2⁻² after the same scaling, weighted by area; 4 = isometric.
+    /// Mean of σ1² + σ2² + σ1⁻² + σ2⁻² after the same scaling, weighted by area; 4 is isometric.
     pub symmetric_dirichlet: Option<f64>,
-    /// |r| / (|ρ| |z2 − z0|) per quad, r the residual of (2).
+    /// r| / (|ρ| |z2 − z0|) per quad, where r is the residual of (2).
     pub rho_residual: Option<MeanMax>,
-    /// max(t, 1/t) with t = image length / length over the mesh's edges, after the same scaling.
+    /// max(t, 1/t) with t = image length / length over the edges of the mesh, after the same
+    /// scaling.
     pub length: Option<MeanMax>,
-    /// How small parts become beside others: the least |a| of a face over the largest, |a| = ½ (σ1 + σ2) its scale. 1: all are drawn to one
-    /// scale. Doubles hold places next to each other to 1e-16 of their distance from 0: a map with parts smaller than about 1e-15 is at the end of what they hold.
+    /// The smallest scale |a| = ½ (σ1 + σ2) of a face relative to the largest; 1 if all are equal.
+    ///
+    /// Double precision resolves positions to 1e-16 of their distance from 0, so parts of a map
+    /// with a relative scale below about 1e-15 are at the limit of what it can represent.
     pub smallest_scale: Option<f64>,
-    /// Faces whose image is not positively oriented, by an exact predicate.
+    /// Number of faces whose image is not positively oriented, by an exact predicate.
     pub flipped: usize,
-    /// The first such face, as the source numbers them.
+    /// The first such face, as an index of the source.
     pub first_flipped: Option<usize>,
-    /// Quads whose image is not strictly convex, flipped ones included; 0 for triangles.
+    /// Number of quads whose image is not strictly convex, including flipped ones; 0 for triangles.
     pub not_convex: usize,
     /// Whether the polygon of the boundary crosses or touches itself.
     pub boundary_crosses: bool,
-    /// Boundary vertices that do not follow their predecessor counter-clockwise; maps onto a circle only.
+    /// Number of boundary vertices that do not follow their predecessor counter-clockwise; only for
+    /// maps to a circle.
     pub boundary_out_of_order: Option<usize>,
 }
 
 impl Distortion {
-    /// Measures a map of `disc`, of which `graph` was made with the given tangent planes.
+    /// Measures a map of `disc`, from which `graph` was made with the given tangent planes.
     pub fn new(disc: &OrientedMesh, graph: &QuadGraph, planes: Option<&TangentPlanes>, image: &Image) -> Self {
         let maps = face_maps(disc, graph, image);
         let scale = area_scale(&maps);
@@ -100,22 +106,23 @@ impl Distortion {
     }
 }
 
-/// The image of the mesh's own boundary vertices, in order.
+/// Returns the images of the boundary vertices of the mesh, in order.
 pub fn mesh_boundary(graph: &QuadGraph, z: &[Complex64]) -> Vec<Complex64> {
     graph.boundary.iter().filter(|&&v| !graph.is_dual(v)).map(|&v| z[v as usize]).collect()
 }
 
-/// Whether quad `q` is, or lies partly in, a face that was put into a hole.
+/// Whether quad `q` is, or lies partly in, a face that fills a hole.
 fn in_filled_face(disc: &OrientedMesh, graph: &QuadGraph, q: usize) -> bool {
     let (first, last) = (disc.source_faces(), disc.faces.len());
     match graph.primal == graph.vertices {
         true => q >= first,
-        // The dual vertices of faces follow those of the mesh.
+        // The dual vertices of faces follow the vertices of the mesh.
         false => graph.quads[q].iter().any(|&v| (graph.primal + first..graph.primal + last).contains(&(v as usize))),
     }
 }
 
-/// The factor on lengths in the plane that gives the image the surface's area; `None` where the image has none.
+/// Returns the factor on lengths in the plane that gives the image the surface's area; `None` if
+/// the image has no area.
 fn area_scale(maps: &[FaceMap]) -> Option<f64> {
     let shapes = || maps.iter().filter(|m| m.has_shape());
     let surface: f64 = shapes().map(|m| m.area).sum();
@@ -124,7 +131,7 @@ fn area_scale(maps: &[FaceMap]) -> Option<f64> {
     scale.is_finite().then_some(scale)
 }
 
-/// The least scale of a face over the largest.
+/// The smallest scale of a face relative to the largest.
 fn smallest_scale(maps: &[FaceMap]) -> Option<f64> {
     let scales = || maps.iter().filter(|m| m.has_shape()).map(|m| 0.5 * (m.sigma1 + m.sigma2));
     let smallest = scales().fold(f64::INFINITY, f64::min) / scales().fold(0.0, f64::max);
@@ -166,7 +173,7 @@ fn symmetric_dirichlet(valid: &[&FaceMap], scale: f64) -> Option<f64> {
     (!valid.is_empty()).then(|| valid.iter().map(|m| m.area * density(m)).sum::<f64>() / area)
 }
 
-/// Over the edges of all faces, inner edges counting from both sides.
+/// Measures the edges of all faces; inner edges count from both sides.
 fn length_distortion(
     disc: &OrientedMesh,
     planes: Option<&TangentPlanes>,
@@ -185,7 +192,8 @@ fn length_distortion(
     mean_max(edges.map(|(f, c)| ratio(f, c)).filter(|t| t.is_finite()))
 }
 
-/// σ1/σ2 of every face for drawing: +∞ where a face is flipped or collapsed, 1 where it is not and has no shape to compare with.
+/// Returns σ1/σ2 of every face for drawing: +∞ if a face is flipped or collapsed, 1 if it is
+/// neither but has no shape at rest.
 pub fn quasi_conformal_errors(maps: &[FaceMap]) -> Vec<f64> {
     let of_face = |map: &FaceMap| match map.is_regular() {
         true => map.quasi_conformal(),

@@ -5,24 +5,27 @@ use crate::geometry::predicate::orientation;
 use crate::surface::edges::{Edges, next_in};
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// Whether a map is one-to-one: the exact check, on the very doubles that are given.
+/// The result of the exact test of whether a map is injective, for the given floating-point
+/// coordinates.
 ///
-/// A map of a disc that is positive on every face, with a boundary that does not meet itself, is one-to-one: its degree over
-/// each point is that of the boundary around it, 0 or 1, and no face takes anything away from it.
+/// A map of a disc that is positive on every face and whose boundary does not meet itself is
+/// injective: its degree at a point is the winding number of the boundary around it, 0 or 1, and
+/// each positive face contributes to the degree.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Validity {
-    /// The faces of which some corner does not turn left, ascending, as the source numbers them; [`OrientedMesh::NEW`] for those put into
-    /// holes.
+    /// The faces with a corner that does not turn left, ascending, as indices of the source;
+    /// [`OrientedMesh::NEW`] for faces that fill holes.
     pub folded: Vec<u32>,
-    /// The vertices around which the faces lie more than once (at the boundary: once and more), where no face is folded; ascending, as
-    /// the source numbers them.
+    /// The vertices around which the faces wind more than once (at the boundary: overlap), if no
+    /// face is flipped; ascending, as indices of the source.
     pub wound: Vec<u32>,
-    /// Two boundary edges that meet where they should not, each by its first vertex, as the source numbers them.
+    /// Two boundary edges that cross or touch, each by its first vertex, as an index of the source.
     pub crossing: Option<[u32; 2]>,
 }
 
 impl Validity {
-    /// Checks the map that puts corner `c` of the faces of `disc` at `place(c)`, beside the other corners of its face.
+    /// Checks the map with the image `place(c)` of each corner `c` of the faces of `disc`; the
+    /// corners of a face must be in the same copy of the cover.
     pub fn new(disc: &OrientedMesh, place: impl Fn(usize) -> Complex64) -> Self {
         let faces = &disc.faces;
         let folded: Vec<u32> = folded_faces(disc, &place).into_iter().map(|f| disc.source_face[f as usize]).collect();
@@ -36,18 +39,19 @@ impl Validity {
         Validity { folded, wound, crossing: boundary_crossing(&boundary).map(|pair| pair.map(source)) }
     }
 
-    /// Whether the map is one-to-one.
+    /// Whether the map is injective.
     pub fn is_one_to_one(&self) -> bool {
         self.is_locally_one_to_one() && self.crossing.is_none()
     }
 
-    /// Whether it is one-to-one near every point: parts that are far from each other may overlap.
+    /// Whether the map is locally injective: distant parts can overlap.
     pub fn is_locally_one_to_one(&self) -> bool {
         self.folded.is_empty() && self.wound.is_empty()
     }
 }
 
-/// The faces of `disc` of which some corner does not turn left, ascending, exactly.
+/// Returns the faces of `disc` with a corner that does not turn left, ascending, by an exact
+/// predicate.
 pub fn folded_faces(disc: &OrientedMesh, place: impl Fn(usize) -> Complex64) -> Vec<u32> {
     let is_folded = |f: &u32| {
         let corners = disc.faces.corner_range(*f as usize);
@@ -58,10 +62,11 @@ pub fn folded_faces(disc: &OrientedMesh, place: impl Fn(usize) -> Complex64) -> 
     (0..disc.faces.len() as u32).filter(is_folded).collect()
 }
 
-/// The vertices around which faces, all positive, lie more than once.
+/// Returns the vertices around which faces, all positive, wind more than once.
 ///
-/// Seen from an inner vertex the opposite sides of its corners go round counter-clockwise: as often as they cross the ray to the right
-/// of it upwards. Of a boundary vertex the corners lie one beside the other from its first edge on, and must not come back to that.
+/// Seen from an inner vertex, the sides opposite its corners run counter-clockwise; their winding
+/// number is the number of times that they cross the ray to the right upwards. The corners at a
+/// boundary vertex follow one another from its first edge, and must not reach that edge again.
 fn wound(disc: &OrientedMesh, place: &impl Fn(usize) -> Complex64) -> Vec<u32> {
     let faces = &disc.faces;
     let previous =
@@ -79,7 +84,7 @@ fn wound(disc: &OrientedMesh, place: &impl Fn(usize) -> Complex64) -> Vec<u32> {
     }
     let edges = Edges::new(faces, disc.positions.len());
     for corner in (0..faces.corners().len()).filter(|&c| edges.opposite(c).is_none() && !disc.boundary.is_empty()) {
-        // From the boundary edge that leaves the vertex on, corner after corner.
+        // From the boundary edge that leaves the vertex, corner after corner.
         let v = faces.corners()[corner];
         let centre = place(corner);
         let first = place(next_in(faces, edges.face_of_corner[corner] as usize, corner));
@@ -92,7 +97,7 @@ fn wound(disc: &OrientedMesh, place: &impl Fn(usize) -> Complex64) -> Vec<u32> {
                 break;
             }
             behind = side < 0.0;
-            // The edge that enters the vertex, seen from the face on its other side, leaves it.
+            // The edge that enters the vertex leaves it when seen from the face on the other side.
             match edges.opposite(previous(f, c)) {
                 Some(next) => c = next,
                 None => break,
