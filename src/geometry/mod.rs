@@ -1,4 +1,4 @@
-//! Plane and space geometry: exact signs, polygons, maps of the disc to itself, vectors in R³.
+//! Geometry of the plane and of space: exact predicates, polygons, Möbius maps, vectors in R³.
 
 pub mod moebius;
 pub mod polygon;

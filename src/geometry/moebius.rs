@@ -1,25 +1,25 @@
-//! Möbius maps, of the disc to itself above all.
+//! Möbius maps, in particular those of the disc to itself.
 
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
-/// A step of the fit is cut to this: |c| < 1 keeps the disc a disc.
+/// Longest step of the fit; |c| < 1 keeps the disc invariant.
 const LONGEST_STEP: f64 = 0.5;
 
-/// How often a step is halved before the fit ends.
+/// Largest number of halvings of a step.
 const HALVINGS: i32 = 30;
 
 /// A Möbius map `z ↦ (a z + b)/(c z + d)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moebius([Complex64; 4]);
 
-/// No Möbius map.
+/// A Möbius map is not determined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MoebiusError {
     /// Two of three points coincide.
-    #[error("three points that are to meet three others must be different, and their places too")]
+    #[error("a Möbius map through three points needs three different points and three different images")]
     Coincident,
-    /// Points too few or too equal to fit the three parameters to.
+    /// There are too few different points to fit the three parameters.
     #[error("no Möbius map of the disc can be fitted to {points} points")]
     Undetermined {
         /// Number of points.
@@ -32,31 +32,35 @@ impl Moebius {
     pub const IDENTITY: Moebius =
         Moebius([Complex64::new(1.0, 0.0), Complex64::ZERO, Complex64::ZERO, Complex64::new(1.0, 0.0)]);
 
-    /// The one map that takes z_k to w_k. Of the disc to itself where both lie on the circle in the same order.
+    /// Returns the map that takes z_k to w_k. It maps the disc to itself if both triples lie on the
+    /// circle in the same order.
     ///
     /// # Errors
-    /// Points that coincide.
+    /// [`MoebiusError::Coincident`].
     pub fn through(z: [Complex64; 3], w: [Complex64; 3]) -> Result<Self, MoebiusError> {
         let apart = |p: [Complex64; 3]| p[0] != p[1] && p[1] != p[2] && p[2] != p[0];
         if !(apart(z) && apart(w)) {
             return Err(MoebiusError::Coincident);
         }
-        // z0, z1, z2 to 0, 1, ∞.
+        // Takes z0, z1, z2 to 0, 1, ∞.
         let standard = |[p, q, r]: [Complex64; 3]| Moebius([q - r, -p * (q - r), q - p, -r * (q - p)]);
         let Moebius([a, b, c, d]) = standard(w);
         Ok(Moebius([d, -b, -c, a]).after(&standard(z)))
     }
 
-    /// The map of the disc to itself that minimises `Σ |M(z_k) − w_k|²`: Gauss–Newton over the three parameters of
-    /// `z ↦ e^{iα}(z + c)/(1 + c̄ z)`, one after the other, from `self`, as long as the sum falls.
+    /// Fits the map of the disc to itself that minimises `Σ |M(z_k) − w_k|²`.
+    ///
+    /// Gauss–Newton iteration from `self` over the parameters of `z ↦ e^{iα}(z + c)/(1 + c̄ z)`,
+    /// until the sum no longer decreases.
     ///
     /// # Errors
-    /// Points that do not determine it.
+    /// [`MoebiusError::Undetermined`].
     pub fn fitted(self, z: &[Complex64], w: &[Complex64]) -> Result<Self, MoebiusError> {
         let undetermined = MoebiusError::Undetermined { points: z.len().min(w.len()) };
         let sum = |map: &Moebius| z.iter().zip(w).map(|(&z, &w)| (map.at(z) - w).norm_sqr()).sum::<f64>();
         let (mut best, mut least) = (self, sum(&self));
-        // Quadratic near w = M(z); from far away a valley may have to be followed.
+        // Convergence is quadratic near w = M(z); from far away the iteration may have to follow a
+        // valley.
         for _ in 0..1000 {
             let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
             for (&z, &w) in z.iter().zip(w) {
@@ -75,32 +79,32 @@ impl Moebius {
                 return Err(undetermined);
             }
             let step = step * (LONGEST_STEP / size).min(1.0);
-            // From far away the whole step may lead uphill.
+            // From far away the full step can increase the sum.
             let shorter = (0..HALVINGS).map(|k| step * 0.5f64.powi(k)).find_map(|step| {
                 let next = Moebius::of_disc(step[0], Complex64::new(step[1], step[2])).after(&best);
                 let value = sum(&next);
                 (value < least).then_some((next, value))
             });
-            // At the minimum rounding alone is left.
+            // At the minimum only rounding is left.
             let Some(lower) = shorter else { break };
             (best, least) = lower;
         }
         Ok(best)
     }
 
-    /// `z ↦ e^{iα}(z + c)/(1 + c̄ z)`, |c| < 1.
+    /// Returns the map `z ↦ e^{iα}(z + c)/(1 + c̄ z)` of the disc to itself, |c| < 1.
     pub fn of_disc(alpha: f64, c: Complex64) -> Self {
         let turn = Complex64::cis(alpha);
         Moebius([turn, turn * c, c.conj(), Complex64::new(1.0, 0.0)])
     }
 
-    /// M(z); not finite at the pole.
+    /// Returns M(z); not finite at the pole.
     pub fn at(&self, z: Complex64) -> Complex64 {
         let Moebius([a, b, c, d]) = self;
         (a * z + b) / (c * z + d)
     }
 
-    /// `z ↦ self(first(z))`, of determinant of absolute value 1.
+    /// Returns the composition `z ↦ self(first(z))`, with a determinant of absolute value 1.
     #[must_use]
     pub fn after(&self, first: &Moebius) -> Self {
         let (Moebius([a, b, c, d]), Moebius([e, f, g, h])) = (self, first);
@@ -147,7 +151,7 @@ mod tests {
     #[test]
     fn what_is_fitted_is_no_worse_than_its_neighbours_or_its_start() {
         let z = points();
-        // No Möbius map.
+        // Not a Möbius map.
         let w: Vec<Complex64> = z.iter().map(|&z| z + 0.1 * z * z.conj()).collect();
         let sum = |map: &Moebius| z.iter().zip(&w).map(|(&z, w)| (map.at(z) - w).norm_sqr()).sum::<f64>();
         let fitted = Moebius::IDENTITY.fitted(&z, &w).unwrap();

@@ -1,4 +1,5 @@
-//! Closed polygons, as the boundary of a map is one: whether they are simple, by a sweep with exact predicates; whether they go round in order.
+//! Closed polygons, such as the boundary of a map: whether they are simple, and whether they are in
+//! order around 0.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -9,12 +10,13 @@ use num_complex::Complex64;
 
 use crate::geometry::predicate::orientation;
 
-/// Two edges of a closed polygon that meet where they should not: edge k runs from vertex k to the next. `None`: the
-/// polygon is simple. Exact.
+/// Returns two edges of a closed polygon that cross or touch, or `None` if the polygon is simple;
+/// edge k runs from vertex k to the next. The result is exact.
 ///
-/// Shamos and Hoey's sweep: edges enter at their left ends and leave at their right ones, those in between are kept in
-/// order, and only neighbours in this order are compared. The leftmost point where two edges meet is found before the order could be
-/// wrong. `n log n` predicates for n edges, whatever the polygon.
+/// This is the sweep of Shamos and Hoey: edges enter at their left ends and leave at their right
+/// ends, the active ones are kept in order, and only neighbours in this order are compared. The
+/// leftmost intersection is found before the order could be wrong. The sweep takes O(n log n)
+/// predicates for n edges of any polygon.
 pub fn boundary_crossing(polygon: &[Complex64]) -> Option<[usize; 2]> {
     let n = polygon.len();
     if let Some(k) = polygon.iter().position(|z| !z.is_finite()) {
@@ -23,7 +25,7 @@ pub fn boundary_crossing(polygon: &[Complex64]) -> Option<[usize; 2]> {
     let before = |a: &usize, b: &usize| lexicographic(polygon[*a], polygon[*b]);
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|a, b| before(a, b).then(a.cmp(b)));
-    // Vertices at one place would not be seen by edges that have gone.
+    // Coincident vertices would not be found if their edges have already left the sweep.
     if let Some(pair) = order.windows(2).find(|pair| polygon[pair[0]] == polygon[pair[1]]) {
         return Some([pair[0].min(pair[1]), pair[0].max(pair[1])]);
     }
@@ -43,7 +45,7 @@ pub fn boundary_crossing(polygon: &[Complex64]) -> Option<[usize; 2]> {
             }
         }
         for k in [left, right].into_iter().filter(|&k| !leaves(k)) {
-            // An edge that is in no order to this one touches it.
+            // An edge that compares as equal to this one touches it.
             if let Some(other) = active.get(&edge(k)) {
                 return Some([k.min(other.k), k.max(other.k)]);
             }
@@ -57,14 +59,16 @@ pub fn boundary_crossing(polygon: &[Complex64]) -> Option<[usize; 2]> {
     None
 }
 
-/// By real parts, then by imaginary ones.
+/// Compares real parts, then imaginary parts.
 fn lexicographic(a: Complex64, b: Complex64) -> Ordering {
     let order = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
     order(a.re, b.re).then(order(a.im, b.im))
 }
 
-/// An edge of a polygon among those that some line from bottom to top meets, ordered along it. The line leans to the left by
-/// nothing, so to speak, and meets a vertical edge at one point.
+/// An edge of a polygon in the order along the sweep line.
+///
+/// The sweep line is tilted to the left by an infinitesimal angle, so that it meets a vertical edge
+/// in one point.
 #[derive(Clone, Copy)]
 struct Edge<'a> {
     polygon: &'a [Complex64],
@@ -72,7 +76,7 @@ struct Edge<'a> {
 }
 
 impl Edge<'_> {
-    /// The left end and the right one.
+    /// The left and the right end.
     fn ends(&self) -> (Complex64, Complex64) {
         let (a, b) = (self.polygon[self.k], self.polygon[(self.k + 1) % self.polygon.len()]);
         if lexicographic(a, b) == Ordering::Greater { (b, a) } else { (a, b) }
@@ -80,7 +84,8 @@ impl Edge<'_> {
 }
 
 impl Ord for Edge<'_> {
-    /// By the place of the later of the two left ends with respect to the other edge; equal where it lies on that.
+    /// Compares by the side of the other edge on which the later of the two left ends lies; equal
+    /// if it lies on that edge.
     fn cmp(&self, other: &Self) -> Ordering {
         if self.k == other.k {
             return Ordering::Equal;
@@ -109,24 +114,24 @@ impl PartialEq for Edge<'_> {
 
 impl Eq for Edge<'_> {}
 
-/// The edges below and above.
+/// The edges directly below and above.
 fn neighbours(active: &BTreeSet<Edge>, edge: Edge) -> (Option<usize>, Option<usize>) {
     let below = active.range((Bound::Unbounded, Bound::Excluded(edge))).next_back();
     let above = active.range((Bound::Excluded(edge), Bound::Unbounded)).next();
     (below.map(|e| e.k), above.map(|e| e.k))
 }
 
-/// Whether edges `i < j` share a point, other than the vertex that neighbours have in common.
+/// Whether edges `i < j` share a point other than the common vertex of neighbours.
 fn edges_meet(polygon: &[Complex64], i: usize, j: usize) -> bool {
     let n = polygon.len();
     let (a, b) = (polygon[i], polygon[(i + 1) % n]);
     let (c, d) = (polygon[j], polygon[(j + 1) % n]);
     let between = |p: f64, q: f64, t: f64| p.min(q) <= t && t <= p.max(q);
-    // With the line through p and q known to hold t.
+    // Assumes that t lies on the line through p and q.
     let on = |p: Complex64, q: Complex64, t: Complex64| between(p.re, q.re, t.re) && between(p.im, q.im, t.im);
     if j == i + 1 || (i == 0 && j + 1 == n) {
         let (previous, shared, next) = if j == i + 1 { (a, b, d) } else { (c, a, b) };
-        // Neighbours meet again only when the second runs back along the first.
+        // Neighbours meet again only if the second runs back along the first.
         return orientation(previous, shared, next) == 0.0
             && (on(previous, shared, next) || on(shared, next, previous));
     }
@@ -139,11 +144,13 @@ fn edges_meet(polygon: &[Complex64], i: usize, j: usize) -> bool {
         || (cdb == 0.0 && on(c, d, b))
 }
 
-/// The number of vertices of a closed polygon, on a circle around 0 or nearly so, that do not follow their predecessor counter-clockwise.
+/// Returns the number of vertices of a closed polygon, on or near a circle around 0, that do not
+/// follow their predecessor counter-clockwise.
 pub fn out_of_order(polygon: &[Complex64]) -> usize {
     let next = |k: usize| polygon[(k + 1) % polygon.len()];
     let behind = (0..polygon.len()).filter(|&k| orientation(Complex64::ZERO, polygon[k], next(k)) <= 0.0).count();
-    // All of them may be on one half of the circle: the last step, of more than half a turn, is ahead then and does not go around 0.
+    // If all of them lie on one half of the circle, the last step turns by more than half a turn
+    // and does not count.
     let turns = || (0..polygon.len()).map(|k| (next(k) * polygon[k].conj()).arg()).sum::<f64>();
     if behind == 1 && turns() < PI { 0 } else { behind }
 }
@@ -172,9 +179,9 @@ mod tests {
     fn simple_polygons_do_not_cross() {
         assert_eq!(boundary_crossing(&polygon(&[(0.0, 0.0), (2.0, 0.0), (1.0, 0.5), (1.0, 2.0)])), None);
         assert_eq!(boundary_crossing(&polygon(&[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])), None);
-        // Collinear neighbours that go on straight.
+        // Collinear neighbours in the same direction.
         assert_eq!(boundary_crossing(&polygon(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (1.0, 1.0)])), None);
-        // Edges straight up and down.
+        // Vertical edges.
         let comb =
             polygon(&[(0.0, 0.0), (5.0, 0.0), (5.0, 3.0), (4.0, 3.0), (4.0, 1.0), (3.0, 1.0), (3.0, 3.0), (0.0, 3.0)]);
         assert_eq!(boundary_crossing(&comb), None);
@@ -188,13 +195,13 @@ mod tests {
         assert!(boundary_crossing(&polygon(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 0.0), (0.0, 1.0)])).is_some());
         // An edge that runs back.
         assert!(boundary_crossing(&polygon(&[(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (1.0, 1.0)])).is_some());
-        // Two vertices at one place.
+        // Two coincident vertices.
         assert!(boundary_crossing(&polygon(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 1.0)])).is_some());
     }
 
     #[test]
     fn long_polygons_take_no_longer_than_their_length() {
-        // A comb of 50 000 long teeth that lie on their side: each line from bottom to top meets all of them.
+        // A comb of 50 000 long horizontal teeth: each vertical line meets all of them.
         let mut comb = vec![Complex64::new(-1.0, 0.0)];
         for k in 0..50_000 {
             let y = f64::from(k);
@@ -210,7 +217,8 @@ mod tests {
     }
 
     proptest! {
-        /// Few places for many vertices: touches, overlaps and edges straight up are the rule. All pairs are the reference.
+        /// Few positions for many vertices: touching, overlapping and vertical edges are common.
+        /// The reference tests all pairs.
         #[test]
         fn sweep_agrees_with_all_pairs(points in prop::collection::vec((0u8..9, 0u8..9), 3..9)) {
             let points: Vec<_> = points.iter().map(|&(x, y)| Complex64::new(x.into(), y.into())).collect();

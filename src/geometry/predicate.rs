@@ -1,12 +1,14 @@
-//! Signs of areas in the plane, exact on the doubles given.
+//! Signs of areas in the plane, exact for the given floating-point numbers.
 
 use num_complex::Complex64;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-/// Positive where a, b, c turn left, negative where they turn right, 0 on a line: the sign is exact.
+/// Returns a number with the exact sign of the area of the triangle a, b, c: positive if they turn
+/// left, negative if they turn right, 0 if they are collinear.
 ///
-/// Coordinates near the ends of the range of doubles are scaled by a power of two first; 0 as well where one is 10²⁹⁰ times
-/// another, so that no power of two brings both away from these ends.
+/// Coordinates near the ends of the range of doubles are first scaled by a power of two. The result
+/// is also 0 if one coordinate is 10²⁹⁰ times another, so that no power of two moves both away from
+/// these ends.
 pub fn orientation(a: Complex64, b: Complex64, c: Complex64) -> f64 {
     let points = [a, b, c];
     let fits = |z: &Complex64| fits(z.re) && fits(z.im);
@@ -14,7 +16,8 @@ pub fn orientation(a: Complex64, b: Complex64, c: Complex64) -> f64 {
         points
     } else {
         let largest = points.iter().fold(0.0, |m: f64, z| m.max(z.re.abs()).max(z.im.abs()));
-        // 0 and subnormal numbers have the exponent −1023 here: they are scaled up by less than they could be.
+        // 0 and subnormal numbers have the exponent −1023 here and are scaled up by less than
+        // possible.
         let exponent = (largest.to_bits() >> 52) as i32 - 1023;
         let (half, rest) = ((498 - exponent) / 2, (498 - exponent) - (498 - exponent) / 2);
         let scale = |x: f64| x * 2f64.powi(half) * 2f64.powi(rest);
@@ -29,13 +32,13 @@ pub fn orientation(a: Complex64, b: Complex64, c: Complex64) -> f64 {
     orient2d(coord(a), coord(b), coord(c))
 }
 
-/// Whether products of two such coordinates have their last bits, and those of their rounding errors, in the range of doubles.
+/// Whether products of two such coordinates, and their rounding errors, are exactly representable.
 fn fits(x: f64) -> bool {
     x == 0.0 || (1e-140..=1e150).contains(&x.abs())
 }
 
-/// Whether (z2 − z0) × (z3 − z1) > 0: the sign of the volume of the tetrahedron with one diagonal at height 0 and the
-/// other at height 1.
+/// Whether (z2 − z0) × (z3 − z1) > 0, as the sign of the volume of the tetrahedron with one
+/// diagonal at height 0 and the other at height 1.
 pub(crate) fn diagonals_cross_left([z0, z1, z2, z3]: [Complex64; 4]) -> bool {
     let at = |z: Complex64, height: f64| Coord3D { x: z.re, y: z.im, z: height };
     orient3d(at(z0, 0.0), at(z2, 0.0), at(z1, 1.0), at(z3, 1.0)) > 0.0
@@ -56,7 +59,7 @@ mod tests {
 
     #[test]
     fn sign_of_the_diagonals_is_exact_where_products_round() {
-        // (1 + ε, 1) × (1, 1 − ε) = −ε² is lost in double products.
+        // (1 + ε, 1) × (1, 1 − ε) = −ε² is lost in products of doubles.
         let e = f64::EPSILON;
         let at = Complex64::new;
         assert!(!diagonals_cross_left([at(0.0, 0.0), at(0.0, 0.0), at(1.0 + e, 1.0), at(1.0, 1.0 - e)]));
@@ -74,11 +77,11 @@ mod tests {
             assert!(orientation(at(0.0, 0.0), at(scale, 0.0), at(scale, scale)) > 0.0, "2^{exponent}");
             assert_eq!(orientation(at(scale, scale), at(2.0 * scale, 2.0 * scale), at(0.0, 0.0)), 0.0, "2^{exponent}");
         }
-        // The smallest of all triangles.
+        // The smallest possible triangle.
         let tiny = f64::from_bits(1);
         assert!(orientation(at(0.0, 0.0), at(tiny, 0.0), at(0.0, tiny)) > 0.0);
         assert!(orientation(at(0.0, 0.0), at(0.0, tiny), at(tiny, 0.0)) < 0.0);
-        // Small beside large: one factor does for both here, and not over the whole range.
+        // Small and large coordinates: one factor suffices here, but not over the whole range.
         assert!(orientation(at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1e-200)) > 0.0);
         assert!(orientation(at(0.0, 0.0), at(1.0, 0.0), at(1.0, tiny)) >= 0.0);
     }
