@@ -5,8 +5,8 @@ use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::problem::nonlinear::Objective;
 use crate::solver::Observer;
 
-/// Conjugate gradients whose line search is exact: along a line the energy is a polynomial, whose lowest minimum ahead is
-/// found from its coefficients.
+/// Conjugate gradients with an exact line search: along a line the energy is a polynomial, whose
+/// lowest minimum ahead is computed from its coefficients.
 pub(super) struct CgExact;
 
 impl Minimiser for CgExact {
@@ -35,8 +35,8 @@ struct ExactCg {
     direction: Vec<f64>,
 }
 
-/// How far to go along p from y: the exact minimum where the energy is a polynomial, else backtracking from 1, or from short of where
-/// the energy is no longer finite.
+/// Returns the step length along p from y: the exact minimum if the energy is a polynomial;
+/// otherwise by backtracking from 1, or from just before the energy becomes infinite.
 pub(super) fn step_length(objective: &Objective, y: &[f64], p: &[f64]) -> Option<f64> {
     let at = |t: f64| y.iter().zip(p).map(|(y, p)| y + t * p).collect::<Vec<_>>();
     match objective.along(y, p) {

@@ -11,21 +11,22 @@ use super::{MinimiseError, Minimum, Status, StopRule};
 use crate::problem::nonlinear::Objective;
 use crate::solver::{Iteration, Observer, Phase};
 
-/// An objective as argmin sees it.
+/// An objective in the interface of argmin.
 #[derive(Clone, Copy)]
 pub(super) struct Target<'a> {
     pub objective: &'a Objective,
-    /// Evaluations of the energy in this iteration.
+    /// Number of evaluations of the energy in this iteration.
     evaluations: &'a Cell<usize>,
 }
 
-/// Which share of the way to where the energy is no longer finite a step may go.
+/// Largest step, as a share of the distance to where the energy becomes infinite.
 pub(super) const LARGEST_SHARE: f64 = 0.9;
 
-/// Evaluations after which a step is given up: at the level of rounding a line search may never end.
+/// Number of evaluations after which a step is abandoned: at the level of rounding a line search
+/// may not end.
 const EVALUATIONS: usize = 200;
 
-/// Parameters, cost and gradient at an iteration.
+/// Parameters, cost and gradient of an iteration.
 pub(super) type Iterate = IterState<Vec<f64>, Vec<f64>, (), (), (), f64>;
 
 impl CostFunction for Target<'_> {
@@ -50,21 +51,22 @@ impl Gradient for Target<'_> {
     }
 }
 
-/// What a minimiser is given.
+/// The limits of a minimiser.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
-    /// Iterations, unless the rule has its own number.
+    /// Default for the largest number of iterations.
     pub max_iterations: usize,
-    /// Steps in a row without a fall of energy or gradient after which rounding is said to be the limit.
+    /// Number of consecutive steps without a decrease of energy or gradient after which rounding
+    /// counts as the limit.
     pub stalled: usize,
 }
 
 impl Limits {
-    /// Of methods that take many small steps.
+    /// Limits for methods that take many small steps.
     pub const FIRST_ORDER: Limits = Limits { max_iterations: 50_000, stalled: 100 };
 }
 
-/// A solver under the common stopping rule.
+/// A solver with the common stopping rule.
 struct Watched<'a, S> {
     inner: S,
     objective: &'a Objective,
@@ -87,7 +89,7 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Watched<'a, S> {
         let step = y.iter().zip(&self.previous).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
         let terms = if self.watch.wants_terms() { self.objective.values(y) } else { Vec::new() };
         self.watch.iteration(&Iteration { number, total: value, terms, gradient_norm, step });
-        // At the level of rounding the energy may waver while the gradient still falls.
+        // At the level of rounding the energy may fluctuate while the gradient still decreases.
         let falls = value < self.best.value
             || (value <= self.best.value * (1.0 + 1e-14) && gradient_norm < self.best.gradient_norm);
         let clearly = value < self.best.value * (1.0 - 1e-15) || gradient_norm < 0.5 * self.best.gradient_norm;
@@ -122,7 +124,7 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched
                 self.see(&state, number);
                 Ok((state, kv))
             }
-            // A line search that finds no descent has met rounding; the best state is kept.
+            // A line search that finds no decrease has reached rounding; the best state is kept.
             Err(error) => {
                 let state = Iterate::new().param(self.best.y.clone()).cost(self.best.value);
                 Ok((state.terminate_with(TerminationReason::SolverExit(error.to_string())), None))
@@ -145,7 +147,7 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched
             return stop(TerminationReason::SolverConverged, Status::Precision, &mut self.best);
         }
         match self.inner.terminate(state) {
-            // By a measure of its own.
+            // The solver's own criterion.
             TerminationStatus::Terminated(reason @ TerminationReason::SolverConverged) => {
                 stop(reason, Status::Converged, &mut self.best)
             }
@@ -154,14 +156,14 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched
     }
 }
 
-/// The state with cost and gradient at its parameters: how our own solvers begin.
+/// Returns the state with cost and gradient at its parameters, with which our own solvers begin.
 pub(super) fn evaluated(problem: &mut Problem<Target>, state: Iterate) -> Result<Iterate, Error> {
     let y = state.get_param().cloned().unwrap_or_default();
     let (cost, gradient) = (problem.cost(&y)?, problem.gradient(&y)?);
     Ok(state.cost(cost).gradient(gradient))
 }
 
-/// Euclidean norm. Where parts of a map are of the size 1e-160 the squares leave the range of doubles, and the norm does not.
+/// The Euclidean norm, without underflow of squares where parts of a map have size 1e-160.
 pub(super) fn norm(v: &[f64]) -> f64 {
     let squared = dot(v, v);
     if (1e-280..=1e280).contains(&squared) || squared == 0.0 && v.iter().all(|x| *x == 0.0) {
@@ -179,10 +181,10 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// |∇E| at the start.
+/// Returns |∇E| at the start.
 ///
 /// # Errors
-/// Energy or gradient are not finite there.
+/// [`MinimiseError::StartNotFinite`].
 pub(super) fn start_gradient_norm(objective: &Objective, start: &[f64]) -> Result<f64, MinimiseError> {
     let gradient_norm = norm(&objective.gradient(start));
     if objective.value(start).is_finite() && gradient_norm.is_finite() {
@@ -192,9 +194,12 @@ pub(super) fn start_gradient_norm(objective: &Objective, start: &[f64]) -> Resul
     }
 }
 
-/// What the gradient of a start far from the minimum might be, times 10⁻⁶: its own gradient is no measure where the start
-/// is the minimum and the gradient mere rounding. Probed at the start scaled by 1.1, the larger one of the unknowns alone and of the whole
-/// map: the energy may be infinite at the first, and see nothing at the second. 0 where it is finite at neither.
+/// Estimates the gradient of a start far from the minimum, times 10⁻⁶.
+///
+/// The gradient at the start itself is not a suitable reference if the start is the minimum, where
+/// it is only rounding. The probes are the start with the unknowns, or with the whole map, scaled
+/// by 1.1; the larger gradient counts. The energy can be infinite at the first probe and constant
+/// at the second. The result is 0 if it is finite at neither.
 fn gradient_of_a_start(objective: &Objective, start: &[f64]) -> f64 {
     let unknowns: Vec<f64> = start.iter().map(|y| 1.1 * y).collect();
     let alone = if objective.value(&unknowns).is_finite() { norm(&objective.gradient(&unknowns)) } else { 0.0 };
@@ -203,7 +208,7 @@ fn gradient_of_a_start(objective: &Objective, start: &[f64]) -> f64 {
     1e-6 * [alone, whole].into_iter().filter(|norm| norm.is_finite()).fold(0.0, f64::max)
 }
 
-/// Runs `solver` from `start` until the rule says stop.
+/// Runs `solver` from `start` until the stopping rule applies.
 pub(super) fn run<S: for<'t> Solver<Target<'t>, Iterate>>(
     backend: &'static str,
     solver: S,
@@ -243,13 +248,13 @@ pub(super) fn run<S: for<'t> Solver<Target<'t>, Iterate>>(
         .timer(false)
         .run()
         .map_err(|error| MinimiseError::Solver { backend, message: error.to_string() })?;
-    // A solver that ended by itself has found no better point.
+    // A solver that stopped by itself has found no better point.
     let used_up = result.state.get_termination_reason() == Some(&TerminationReason::MaxItersReached);
     let mut best = result.solver.best;
     if best.status == Status::MaxIterations && !used_up {
         best.status = Status::Precision;
     }
-    // The gradient that argmin carries may be that of the last iterate.
+    // The gradient that argmin stores can be that of the last iterate.
     best.gradient_norm = norm(&objective.gradient(&best.y));
     if best.reduction() <= rule.tolerance {
         best.status = Status::Converged;

@@ -1,4 +1,5 @@
-//! argmin's own first-order solvers: the paper's conjugate gradients and L-BFGS, as rows to compare with.
+//! argmin's first-order solvers, for comparison: nonlinear conjugate gradients, as in the paper,
+//! and L-BFGS.
 
 use argmin::core::Error;
 use argmin::solver::conjugategradient::NonlinearConjugateGradient;
@@ -11,10 +12,11 @@ use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::problem::nonlinear::Objective;
 use crate::solver::Observer;
 
-/// Iterations after which a direction is forgotten: without, Fletcher–Reeves jams; much sooner, conjugacy is lost.
+/// Number of iterations after which directions are reset: without resets Fletcher–Reeves jams, with
+/// much more frequent ones conjugacy is lost.
 const RESTART: u64 = 1_000;
 
-/// A line search exact enough for conjugacy (c₂ = 0.1).
+/// A line search that is accurate enough for conjugacy (c₂ = 0.1).
 fn line_search() -> Result<MoreThuenteLineSearch<Vec<f64>, Vec<f64>, f64>, Error> {
     MoreThuenteLineSearch::new().with_c(1e-4, 0.1)
 }
@@ -32,14 +34,14 @@ enum Method {
     Lbfgs,
 }
 
-/// Conjugate gradients after Fletcher and Reeves.
+/// Conjugate gradients by Fletcher and Reeves.
 pub(super) static FLETCHER_REEVES: FirstOrder = FirstOrder {
     name: "fletcher-reeves",
     description: "conjugate gradients after Fletcher and Reeves, Moré–Thuente line search (argmin): the paper's",
     method: Method::FletcherReeves,
 };
 
-/// Conjugate gradients after Polak and Ribière, β ≥ 0.
+/// Conjugate gradients by Polak and Ribière, β ≥ 0.
 pub(super) static POLAK_RIBIERE: FirstOrder = FirstOrder {
     name: "polak-ribiere",
     description: "conjugate gradients after Polak and Ribière (β ≥ 0), Moré–Thuente line search (argmin)",
@@ -81,7 +83,7 @@ impl Minimiser for FirstOrder {
                 run(self.name, solver.restart_iters(RESTART), objective, start, rule, limits, watch)
             }
             Method::Lbfgs => {
-                // Its own tests are switched off: the common rule decides.
+                // Its own criteria are disabled; the common rule decides.
                 let solver = LBFGS::new(MoreThuenteLineSearch::new(), 20).with_tolerance_grad(0.0);
                 let solver = solver.and_then(|solver| solver.with_tolerance_cost(0.0)).map_err(failed)?;
                 run(self.name, solver, objective, start, rule, limits, watch)

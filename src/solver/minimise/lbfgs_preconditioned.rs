@@ -11,13 +11,15 @@ use crate::problem::nonlinear::{HessianAssembly, Objective};
 use crate::solver::{Observer, Phase};
 use crate::sparse::Cholesky;
 
-/// L-BFGS whose first matrix is the Gauss–Newton Hessian at the start, factorised once: an iteration costs one solve.
+/// L-BFGS whose initial matrix is the Gauss–Newton Hessian at the start, factorised once; an
+/// iteration costs one solve.
 pub(super) struct LbfgsPreconditioned;
 
-/// Pairs remembered.
+/// Number of stored pairs.
 const PAIRS: usize = 20;
 
-/// Damping of the preconditioner relative to its diagonal; it need not be accurate, but definite.
+/// Damping of the preconditioner relative to its diagonal; it must be definite but need not be
+/// accurate.
 const DAMPING: f64 = 1e-8;
 
 impl Minimiser for LbfgsPreconditioned {
@@ -36,7 +38,7 @@ impl Minimiser for LbfgsPreconditioned {
         rule: StopRule,
         watch: &mut dyn Observer,
     ) -> Result<Minimum, MinimiseError> {
-        // Before it spoils the factorisation.
+        // Before a start that is not finite makes the factorisation fail.
         start_gradient_norm(objective, &start)?;
         watch.phase(Phase::Assemble);
         let assembly = HessianAssembly::new(objective);
@@ -52,7 +54,7 @@ impl Minimiser for LbfgsPreconditioned {
     }
 }
 
-/// A step s, the change q of the gradient that it made, and 1/(s·q).
+/// A step s, the change q of the gradient over it, and 1/(s·q).
 struct Pair {
     s: Vec<f64>,
     q: Vec<f64>,

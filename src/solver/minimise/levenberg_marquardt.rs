@@ -7,19 +7,23 @@ use crate::problem::nonlinear::{HessianAssembly, Objective};
 use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Cholesky, Columns};
 
-/// Damped Newton steps `(B + λ M) p = −g` by sparse Cholesky, the pattern analysed once.
+/// Damped Newton steps `(B + λ M) p = −g` by sparse Cholesky, with the pattern analysed once.
 ///
-/// M measures steps by their Dirichlet energy ([`Objective::norm`]), which lets a map move as a whole: with the diagonal
-/// of B in its place, the usual choice, the number of iterations grows with the mesh. B is the Gauss–Newton Hessian
-/// where the energy falls to 0, the exact one where its minimum is not 0. A Gauss–Newton step is bent along the valley
-/// that it follows by the second derivatives of the residuals (geodesic acceleration; Transtrum, Sethna 2012).
+/// B is the Gauss–Newton Hessian if the minimum of the energy is 0, and the exact one otherwise.
+/// Gauss–Newton steps are corrected by the second derivatives of the residuals (geodesic
+/// acceleration; Transtrum, Sethna 2012). M measures steps by their Dirichlet energy
+/// ([`Objective::norm`]).
+///
+/// # Rationale
+/// M lets a map move as a whole. With the diagonal of B instead, which is the usual choice, the
+/// number of iterations grows with the mesh.
 pub struct LevenbergMarquardt {
-    /// Which B; `None`: begin with Gauss–Newton, change over when steps come to crawl.
+    /// The choice of B; `None` begins with Gauss–Newton and changes when steps become slow.
     pub curvature: Option<Curvature>,
 }
 
 impl LevenbergMarquardt {
-    /// Chooses B by itself, Gauss–Newton first.
+    /// Chooses B automatically, Gauss–Newton first.
     pub const AUTO: LevenbergMarquardt = LevenbergMarquardt { curvature: None };
 }
 
@@ -74,7 +78,8 @@ impl Minimiser for LevenbergMarquardt {
     }
 }
 
-/// Adds `t` times a matrix's diagonal to it. A diagonal entry without size is given that of the largest.
+/// Adds `t` times a matrix's diagonal to it. Negligible diagonal entries are replaced by the
+/// largest one.
 pub(super) fn add_damping(columns: &Columns, values: &mut [f64], t: f64) {
     let largest = columns.diagonal(values).fold(0.0, f64::max);
     for k in 0..columns.size() {
@@ -83,35 +88,38 @@ pub(super) fn add_damping(columns: &Columns, values: &mut [f64], t: f64) {
     }
 }
 
-/// The largest damping before a step is given up as lost to rounding.
+/// The largest damping before a step counts as lost to rounding.
 const LARGEST_DAMPING: f64 = 1e14;
 
-/// The first λ. Where the energy can vanish bold steps save iterations; where it cannot they may lead past the nearest minimum
-/// to one many times higher.
+/// Initial values of λ. If the energy can vanish, a small λ saves iterations; if it cannot, large
+/// steps may skip the nearest minimum and end in one with a much higher energy.
 const BOLD: f64 = 1e-3;
 const CAUTIOUS: f64 = 0.1;
 
-/// What λ is multiplied by where the model was right: Nielsen's, and for metric energies, whose models are good from the start on,
-/// until a step fails.
+/// Factor of λ if the model was right: Nielsen's value, and a smaller one for metric energies,
+/// whose models are accurate from the start, until a step fails.
 const NIELSEN: f64 = 1.0 / 3.0;
 const SHRINK: f64 = 0.1;
 
-/// The diagonal of B in M: rotations of one colour against the other have no Dirichlet energy. Where a map has to move as a
-/// whole, no more than `DIAGONAL_SUM` of one entry in all: with more, a large map tears at the vertex that is held.
+/// Share of the diagonal of B in M, which is needed because rotations of one colour relative to the
+/// other have no Dirichlet energy. If a map has to move as a whole, the sum of these terms is
+/// limited to `DIAGONAL_SUM` of one entry; with more, a large map distorts at the pinned vertex.
 const DIAGONAL_SHARE: f64 = 1e-6;
 const DIAGONAL_SUM: f64 = 4e-3;
 
-/// What λ is multiplied by after a step at the end, where only the gradient tells progress: on to Newton's method.
+/// Factor of λ after steps at the end, where only the gradient shows progress; λ → 0 gives Newton's
+/// method.
 const LAST_STEPS: f64 = 0.01;
 
-/// The largest bend of a step, relative to its length, that is trusted.
+/// Largest geodesic acceleration, relative to the length of the step, that is accepted.
 const LARGEST_BEND: f64 = 1.0;
 
-/// A step crawls when it leaves more than this of the energy.
+/// A step is slow if more than this share of the energy is left.
 const CRAWL: f64 = 0.9;
 
-/// Crawling steps in a row after which the other Hessian is tried. The exact one ends a minimisation whose energy does not
-/// vanish, but in the curved valleys of one whose energy does it may crawl where Gauss–Newton steps run.
+/// Number of consecutive slow steps after which the other Hessian is tried. The exact Hessian is
+/// needed at the end if the energy does not vanish; but in the curved valleys of an energy that
+/// does, it can be slow where Gauss–Newton steps are fast.
 const GAUSS_NEWTON_PATIENCE: usize = 3;
 const EXACT_PATIENCE: usize = 15;
 
@@ -127,15 +135,15 @@ struct Damped<'a> {
     crawling: usize,
     /// λ, in units in which M has the trace of the Gauss–Newton Hessian.
     lambda: f64,
-    /// What λ is multiplied by at least after a success.
+    /// Smallest factor of λ after a success.
     shrink: f64,
-    /// What λ is multiplied by at the next failure (Nielsen).
+    /// Factor of λ at the next failure (Nielsen).
     growth: f64,
     factor: Option<Cholesky<'a, f64>>,
 }
 
 impl Damped<'_> {
-    /// M at a point with this Gauss–Newton Hessian.
+    /// M at a point with the given Gauss–Newton Hessian.
     fn damping(&self, gauss: &[f64]) -> Vec<f64> {
         let columns = self.assembly.columns();
         let scale = columns.diagonal(gauss).sum::<f64>() / columns.diagonal(&self.norm).sum::<f64>();
@@ -147,8 +155,8 @@ impl Damped<'_> {
         damping
     }
 
-    /// The step with the present λ, bent where that is to be trusted, and the decrease that its model predicts; `None`
-    /// where B + λM is not positive definite.
+    /// Returns the step with the current λ, with geodesic acceleration if accepted, and the
+    /// predicted decrease; `None` if B + λM is not positive definite.
     fn step(&mut self, model: &[f64], damping: &[f64], y: &[f64], g: &[f64]) -> Option<(Vec<f64>, f64)> {
         let columns = self.assembly.columns();
         let damped: Vec<f64> = model.iter().zip(damping).map(|(b, m)| b + self.lambda * m).collect();
@@ -230,7 +238,7 @@ impl<'a> Solver<Target<'a>, Iterate> for Damped<'_> {
             let next: Vec<f64> = y.iter().zip(&p).map(|(y, p)| y + p).collect();
             let there = problem.cost(&next)?;
             if predicted <= f64::EPSILON * here {
-                // The energy can no longer tell which of the two is lower; the gradient can.
+                // The energies are equal up to rounding; the gradients decide.
                 let gradient = problem.gradient(&next)?;
                 let better = there.is_finite() && dot(&gradient, &gradient) < dot(&g, &g);
                 if better && self.overdetermined {

@@ -1,5 +1,5 @@
-//! Iterative minimisers of an [`Objective`], all run by argmin's executor under one stopping rule. A new one is one file
-//! and one row of [`MINIMISERS`].
+//! Iterative minimisers of an [`Objective`], all run by argmin's executor with one stopping rule. A
+//! new minimiser is one file and one row of [`MINIMISERS`].
 
 mod cg_exact;
 mod executor;
@@ -19,21 +19,21 @@ use crate::sparse::Breakdown;
 
 /// A solver of nonlinear problems.
 pub trait Minimiser: Sync {
-    /// Name for `--solver` and the report.
+    /// The name, as used in options and in the report.
     fn name(&self) -> &'static str;
 
-    /// One line for `riemap list`.
+    /// A description of one line.
     fn description(&self) -> &'static str;
 
-    /// Iterations after which it gives up, unless told otherwise.
+    /// Default for the largest number of iterations.
     fn default_max_iterations(&self) -> usize {
         executor::Limits::FIRST_ORDER.max_iterations
     }
 
-    /// A local minimum of `objective` near `start` (`m`).
+    /// Finds a local minimum of `objective` near `start` (`m`).
     ///
     /// # Errors
-    /// A start at which the energy is not finite; a matrix that cannot be factorised.
+    /// The energy is not finite at the start, or a matrix cannot be factorised.
     fn minimise(
         &self,
         objective: &Objective,
@@ -43,7 +43,7 @@ pub trait Minimiser: Sync {
     ) -> Result<Minimum, MinimiseError>;
 }
 
-/// All iterative backends by name; `auto` takes the first.
+/// The table of all minimisers; `auto` uses the first.
 pub static MINIMISERS: &[&dyn Minimiser] = &[
     &LevenbergMarquardt::AUTO,
     &Newton::ROW,
@@ -54,19 +54,19 @@ pub static MINIMISERS: &[&dyn Minimiser] = &[
     &first_order::LBFGS_ROW,
 ];
 
-/// The iterative backend of that name.
+/// Returns the minimiser with this name.
 pub fn minimiser(name: &str) -> Option<&'static dyn Minimiser> {
     MINIMISERS.iter().copied().find(|m| m.name() == name)
 }
 
-/// When to stop; means the same to all minimisers.
+/// The stopping rule, common to all minimisers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopRule {
-    /// Converged when |∇E| ≤ tolerance × reference.
+    /// A minimisation has converged if |∇E| ≤ tolerance × reference.
     pub tolerance: f64,
-    /// What |∇E| is compared with; `None`: its value at the start.
+    /// The reference for |∇E|; `None` for its value at the start.
     pub reference: Option<f64>,
-    /// Iterations at most; `None`: the minimiser's own default.
+    /// Largest number of iterations; `None` for the minimiser's default.
     pub max_iterations: Option<usize>,
 }
 
@@ -76,21 +76,21 @@ impl Default for StopRule {
     }
 }
 
-/// How a minimisation ended.
+/// The way in which a minimisation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// |∇E| is below the tolerance, or what a step may still gain below the one that a solver has for that.
+    /// ∇E| is below the tolerance, or the predicted decrease is below the limit of the solver.
     Converged,
-    /// Rounding keeps the energy from falling further, short of the tolerance.
+    /// Rounding prevents a further decrease before the tolerance is reached.
     Precision,
-    /// The iterations are used up.
+    /// The largest number of iterations was reached.
     MaxIterations,
     /// A stop was requested.
     Interrupted,
 }
 
 impl Status {
-    /// As in reports.
+    /// The name used in reports.
     pub fn name(self) -> &'static str {
         match self {
             Status::Converged => "converged",
@@ -101,7 +101,7 @@ impl Status {
     }
 }
 
-/// Where a minimisation ended: the caller must look at `status`.
+/// The result of a minimisation; check `status` before use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Minimum {
     /// The unknowns (`m`).
@@ -110,11 +110,11 @@ pub struct Minimum {
     pub value: f64,
     /// |∇E(y)|, Euclidean.
     pub gradient_norm: f64,
-    /// What |∇E| was compared with.
+    /// The reference for |∇E|.
     pub reference: f64,
-    /// Iterations made.
+    /// Number of iterations.
     pub iterations: usize,
-    /// Why it stopped.
+    /// The reason for stopping.
     pub status: Status,
 }
 
@@ -126,35 +126,38 @@ impl Minimum {
 }
 
 impl MinimiseError {
-    /// What `backend` says of a Hessian of so many unknowns that has no factor.
+    /// Returns a function that makes the error of `backend` for a Hessian that cannot be
+    /// factorised.
     fn factorisation(backend: &dyn Minimiser, unknowns: usize) -> impl Fn(Breakdown) -> MinimiseError + use<> {
         let backend = backend.name();
         move |reason| MinimiseError::Factorisation { backend, unknowns, reason }
     }
 }
 
-/// A minimisation could not be made.
+/// A minimisation is not possible.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MinimiseError {
-    /// Energy or gradient of the start are not finite.
-    #[error("the energy of the initial map is not finite: coordinates or coefficients are beyond the range of doubles")]
+    /// Energy or gradient are not finite at the start.
+    #[error(
+        "the energy of the initial map is not finite: coordinates or coefficients are beyond the range of double precision"
+    )]
     StartNotFinite,
-    /// The factor does not fit.
+    /// The factorisation failed.
     #[error("backend `{backend}`: the Hessian of {unknowns} unknowns cannot be factorised: {reason}")]
     Factorisation {
-        /// Its name.
+        /// Name of the solver.
         backend: &'static str,
-        /// Real unknowns.
+        /// Number of real unknowns.
         unknowns: usize,
-        /// Why.
+        /// The reason.
         reason: Breakdown,
     },
-    /// An error of argmin's own.
+    /// An error of argmin.
     #[error("backend `{backend}` failed: {message}")]
     Solver {
-        /// Its name.
+        /// Name of the solver.
         backend: &'static str,
-        /// What it said.
+        /// argmin's message.
         message: String,
     },
 }

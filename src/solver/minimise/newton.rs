@@ -8,37 +8,47 @@ use crate::problem::nonlinear::{HessianAssembly, Objective};
 use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Breakdown, Cholesky};
 
-/// Newton's method with a line search, `∇²E p = −∇E` by sparse Cholesky, the pattern analysed once.
+/// Newton's method with a line search: `∇²E p = −∇E` by sparse Cholesky, with the pattern analysed
+/// once.
 ///
-/// The Hessian is the exact one wherever that is positive definite; elsewhere it is drawn towards its positive semi-definite model until
-/// it is: with the model all the way it takes hundreds of steps where the true one takes ten. A step ends short of where the energy is
-/// no longer finite, and is shortened until the energy falls: where it is +∞ on maps with flipped faces, no iterate has any. It is
-/// lengthened while the energy goes on falling: next to such a barrier, where E is like x⁻², a step takes x to 4x/3 only.
+/// The Hessian is the exact one if it is positive definite; otherwise a share of the difference to
+/// its positive semi-definite model is added, until it is. Steps end before the energy becomes
+/// infinite, and are shortened until the energy decreases: if it is +∞ for maps with flipped faces,
+/// no iterate has any. Steps are lengthened while the energy keeps decreasing.
+///
+/// # Rationale
+/// With the full model, hundreds of steps are needed where the exact Hessian needs ten. Near a
+/// barrier at which E behaves like x⁻², a Newton step takes x only to 4x/3.
 pub struct Newton {
-    /// Converged too when the next step promises to gain less than this share of E, whatever the gradient; 0: never. Unlike the
-    /// gradient it does not depend on how large the parts of a map are.
+    /// The iteration has also converged if the next step is predicted to reduce E by less than this
+    /// share, whatever the gradient is; 0 disables this. Unlike the gradient, this criterion does
+    /// not depend on the sizes of the parts of a map.
     pub smallest_gain: f64,
 }
 
 impl Newton {
-    /// The row of the table: the gradient alone decides.
+    /// The entry of the table, for which only the gradient decides.
     pub const ROW: Newton = Newton { smallest_gain: 0.0 };
 }
 
-/// Of the decrease that the slope promises a step must bring this.
+/// A step must achieve this share of the decrease predicted by the slope.
 const SUFFICIENT: f64 = 1e-4;
 
-/// How often a step is halved.
+/// Largest number of halvings of a step.
 const HALVINGS: i32 = 60;
 
-/// How much of what the Hessian lacks to its definite model is added, in turn, until the matrix is definite: a little of it is enough near a
-/// minimum, and all of it overstates the curvature. A step begins with the share before the one that the last step needed.
+/// Shares of the difference between the Hessian and its definite model that are added, in turn,
+/// until the matrix is definite. Near a minimum a small share suffices, and the full difference
+/// overestimates the curvature. A step begins with the share before the one that the last step
+/// needed.
 const TOWARDS_MODEL: [f64; 4] = [0.0, 0.1, 0.3, 1.0];
 
-/// A full step is lengthened where this share of the slope is left at its end; none would be if E were quadratic.
+/// A full step is lengthened if this share of the slope is left at its end; for quadratic E none
+/// would be.
 const STEEP: f64 = 0.25;
 
-/// Shares of its diagonal that are added to the model, in turn, until it is definite to rounding.
+/// Shares of the diagonal that are added to the model, in turn, until it is definite despite
+/// rounding.
 const DAMPING: [f64; 3] = [1e-12, 1e-9, 1e-6];
 
 impl Minimiser for Newton {
@@ -90,9 +100,9 @@ struct Backtracking<'a> {
     smallest_gain: f64,
     has_gained_all: bool,
     factor: Cholesky<'a, f64>,
-    /// The place in [`TOWARDS_MODEL`] of the share that the last step needed.
+    /// The index in [`TOWARDS_MODEL`] of the share that the last step needed.
     share: usize,
-    /// Values of the Hessian, of its model, and of what is between them.
+    /// Values of the Hessian, of its model, and of the blend of both.
     exact: Vec<f64>,
     model: Vec<f64>,
     blend: Vec<f64>,
@@ -107,7 +117,7 @@ struct End {
 }
 
 impl Backtracking<'_> {
-    /// −B⁻¹ g, B the Hessian or its model.
+    /// −B⁻¹ g, where B is the Hessian or its model.
     fn direction(&mut self, y: &[f64], g: &[f64]) -> Result<Vec<f64>, Breakdown> {
         self.factorise(y)?;
         let mut p: Vec<f64> = g.iter().map(|g| -g).collect();
@@ -169,17 +179,17 @@ impl<'a> Solver<Target<'a>, Iterate> for Backtracking<'_> {
         let here = state.get_cost();
         let p = self.direction(&y, &g)?;
         let slope = dot(&g, &p);
-        // Half of it is what the model gains.
+        // The model predicts half of this.
         self.has_gained_all = -0.5 * slope <= self.smallest_gain * here.abs();
         let longest = LARGEST_SHARE * self.objective.largest_step(&y, &p);
-        // That of a sum of so many terms.
+        // The rounding error of a sum of so many terms.
         let rounding = f64::EPSILON * (y.len() as f64).sqrt() * here.abs();
         let along = |t: f64| -> Vec<f64> { y.iter().zip(&p).map(|(y, p)| y + t * p).collect() };
         for t in (0..HALVINGS).map(|k| longest.min(1.0) * 0.5f64.powi(k)) {
             let next = along(t);
             let there = problem.cost(&next)?;
             if -t * slope <= rounding {
-                // The energy can no longer tell which of the two is lower; the gradient can.
+                // The energies are equal up to rounding; the gradients decide.
                 let gradient = problem.gradient(&next)?;
                 if there.is_finite() && dot(&gradient, &gradient) < dot(&g, &g) {
                     return Ok((state.param(next).cost(there).gradient(gradient), None));
