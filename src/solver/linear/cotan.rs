@@ -5,10 +5,12 @@ use super::{LinearSolver, SolveError, Unsuitable};
 use crate::problem::linear::LinearProblem;
 use crate::solver::Observer;
 
-/// The [conformal Laplacian](Laplacian) where every ρ is real: the black vertices carry a harmonic map of the Laplacian with edge
-/// weights ρ (the cotan weights, for circumcentres), the white ones its conjugate.
+/// The [conformal Laplacian](Laplacian) if every ρ is real: the black vertices carry a harmonic map
+/// for the Laplacian with edge weights ρ (for circumcentres the cotan weights), the white ones its
+/// conjugate.
 ///
-/// Needs no sign of ρ: the Laplacian of a triangle mesh is positive definite whatever the signs of its weights.
+/// Re ρ can have any sign: the Laplacian of a triangle mesh is positive definite for all signs of
+/// its weights.
 pub(super) struct Cotan;
 
 impl LinearSolver for Cotan {

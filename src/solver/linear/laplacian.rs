@@ -6,8 +6,10 @@ use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
 use crate::sparse::Breakdown;
 
-/// Solves the square system (2) on half of the vertices: `L_II z_I = −L_IB z_B` on black ones, of which those on the
-/// boundary are held, and white ones by adding up `z_f − z_g = iρ (z_j − z_i)` from the one that is held.
+/// Solves the square system (2) on half of the vertices.
+///
+/// The black vertices, whose boundary vertices are pinned, satisfy `L_II z_I = −L_IB z_B`. The
+/// white ones follow by summing `z_f − z_g = iρ (z_j − z_i)` from the pinned one.
 pub(super) struct Laplacian;
 
 impl LinearSolver for Laplacian {
@@ -31,7 +33,7 @@ impl LinearSolver for Laplacian {
     }
 }
 
-/// Solves (2) by the conformal Laplacian, in the name of `backend`.
+/// Solves (2) by the conformal Laplacian, on behalf of the solver `backend`.
 pub(super) fn solve(
     backend: &dyn LinearSolver,
     problem: &LinearProblem,
@@ -59,8 +61,8 @@ pub(super) fn solve(
     Ok(z)
 }
 
-/// Colours such that all black boundary vertices are held, and the one white vertex that is; `None` where the
-/// constraints are of another form.
+/// Returns colours for which all black boundary vertices are pinned, and the only pinned white
+/// vertex; `None` if the constraints have a different form.
 fn held(problem: &LinearProblem) -> Option<(Colouring, u32)> {
     let (graph, elimination) = (problem.graph, &problem.elimination);
     let colouring = Colouring::new(graph).ok()?;

@@ -9,7 +9,7 @@ use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
 use crate::sparse::interop::faer_view;
 
-/// (2) itself by sparse LU with partial pivoting, where it is square; any sign of Re ρ.
+/// Solves the square system (2) by sparse LU with partial pivoting, for any sign of Re ρ.
 pub(super) struct Lu;
 
 impl LinearSolver for Lu {
@@ -42,7 +42,7 @@ impl LinearSolver for Lu {
         })?;
         watch.phase(Phase::Solve);
         let mut y = factor.solve(ColRef::from_slice(&right));
-        // One step of refinement: y += (A Z)⁻¹ (b − A Z y).
+        // One step of iterative refinement: y += (A Z)⁻¹ (b − A Z y).
         let defect: Col<Complex64> = ColRef::from_slice(&right) - matrix * &y;
         y += factor.solve(&defect);
         Ok(problem.elimination.expand(&y.iter().copied().collect::<Vec<_>>()))

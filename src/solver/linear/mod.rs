@@ -17,26 +17,27 @@ use crate::sparse::Breakdown;
 
 /// A direct solver of [`LinearProblem`]s.
 pub trait LinearSolver: Sync {
-    /// Name for `--solver` and the report.
+    /// The name, as used in options and in the report.
     fn name(&self) -> &'static str;
 
-    /// One line for `riemap list`.
+    /// A description of one line.
     fn description(&self) -> &'static str;
 
-    /// Whether the backend solves this problem exactly.
+    /// Checks whether the solver solves this problem exactly.
     ///
     /// # Errors
-    /// Why it does not.
+    /// The reason why it does not.
     fn suits(&self, problem: &LinearProblem) -> Result<(), Unsuitable>;
 
-    /// The map z (`nv`), held vertices included, to rounding. `watch` is told when a phase begins.
+    /// Computes the map z (`nv`), including pinned vertices, up to rounding. `watch` is notified of
+    /// each phase.
     ///
     /// # Errors
-    /// A problem that does not suit, or a factorisation that broke down.
+    /// The problem is unsuitable, or the factorisation broke down.
     fn solve(&self, problem: &LinearProblem, watch: &mut dyn Observer) -> Result<Vec<Complex64>, SolveError>;
 }
 
-/// All direct backends by name.
+/// The table of all direct solvers.
 pub static LINEAR_SOLVERS: &[&dyn LinearSolver] = &[
     &cotan::Cotan,
     &laplacian::Laplacian,
@@ -47,49 +48,49 @@ pub static LINEAR_SOLVERS: &[&dyn LinearSolver] = &[
     &nalgebra_cholesky::NalgebraCholesky,
 ];
 
-/// The direct backend of that name.
+/// Returns the direct solver with this name.
 pub fn linear_solver(name: &str) -> Option<&'static dyn LinearSolver> {
     LINEAR_SOLVERS.iter().copied().find(|b| b.name() == name)
 }
 
-/// A linear solution and how good it is.
+/// The solution of a linear problem and its residual.
 #[derive(Clone, Debug)]
 pub struct LinearSolution {
     /// The map (`nv`).
     pub z: Vec<Complex64>,
-    /// The backend that found it.
+    /// Name of the solver that found it.
     pub backend: &'static str,
-    /// [`LinearProblem::residual`] of z, or with no usable weights that of (2).
+    /// [`LinearProblem::residual`] of z; without usable weights, that of (2).
     pub residual: f64,
 }
 
-/// Why a backend does not take a problem.
+/// A solver is not suitable for a problem.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unsuitable {
-    /// The system has more equations than unknowns, or fewer.
+    /// The system does not have as many equations as unknowns.
     #[error(
         "system (2) has {equations} equations for {unknowns} unknowns and this backend needs as many: those of the mesh's \
          boundary and one dual vertex held"
     )]
     NotSquare {
-        /// Quads.
+        /// Number of quads.
         equations: usize,
-        /// Free vertices.
+        /// Number of free vertices.
         unknowns: usize,
     },
-    /// Boundary vertices are free.
+    /// A boundary vertex is free.
     #[error("boundary vertex {vertex} is free, and the normal equations are real only where all are held")]
     FreeBoundary {
         /// The first such vertex of the quad graph.
         vertex: u32,
     },
-    /// Unit weights where integral ones are needed.
-    #[error("the normal equations are real with integral weights alone")]
+    /// The weights are unit weights, and integral ones are needed.
+    #[error("the normal equations are real only with integral weights")]
     UnitWeights,
-    /// No usable weights.
+    /// The weights are not defined.
     #[error(transparent)]
     NonPositiveRho(#[from] NonPositiveRho),
-    /// A ρ that is not real.
+    /// Some ρ is not real.
     #[error(
         "quad {quad} has Im ρ = {im_rho:e}, and the cotan Laplacian needs diagonals at right angles, those of circumcentres"
     )]
@@ -99,7 +100,7 @@ pub enum Unsuitable {
         /// Its Im ρ.
         im_rho: f64,
     },
-    /// The held vertices are not all black boundary vertices and one white vertex.
+    /// The pinned vertices are not all black boundary vertices and one white vertex.
     #[error("the conformal Laplacian needs all boundary vertices of the mesh held, no other, and one dual vertex")]
     NotPrimal,
 }
@@ -107,20 +108,20 @@ pub enum Unsuitable {
 /// A linear problem was not solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
-    /// The backend does not take this problem.
+    /// The solver is not suitable for this problem.
     #[error("backend `{backend}`: {reason}")]
     Unsuitable {
-        /// Its name.
+        /// Name of the solver.
         backend: &'static str,
-        /// Why.
+        /// The reason.
         reason: Unsuitable,
     },
-    /// No such backend.
+    /// No solver has this name.
     #[error("`{name}` does not solve linear problems; those that do: auto, {known}")]
     Unknown {
-        /// The name asked for.
+        /// The requested name.
         name: String,
-        /// The names there are.
+        /// The known names.
         known: String,
     },
     /// A pivot of a Cholesky factorisation is not positive.
@@ -129,44 +130,44 @@ pub enum SolveError {
          nearly degenerate faces, or too little is held"
     )]
     NotPositiveDefinite {
-        /// Its name.
+        /// Name of the solver.
         backend: &'static str,
-        /// Unknowns.
+        /// Number of unknowns.
         size: usize,
     },
-    /// The matrix has no inverse.
+    /// The matrix is singular.
     #[error("backend `{backend}`: the matrix of {size} unknowns is singular: other vertices must be held")]
     Singular {
-        /// Its name.
+        /// Name of the solver.
         backend: &'static str,
-        /// Unknowns.
+        /// Number of unknowns.
         size: usize,
     },
-    /// The factor does not fit.
+    /// The factor does not fit into memory or its indices.
     #[error("backend `{backend}`: the factor of {size} unknowns does not fit into memory or its indices")]
     TooLarge {
-        /// Its name.
+        /// Name of the solver.
         backend: &'static str,
-        /// Unknowns.
+        /// Number of unknowns.
         size: usize,
     },
-    /// The solution is not one.
+    /// The residual of the solution is too large.
     #[error(
         "backend `{backend}` left a relative residual of {residual:e}, above {limit:e}: the problem is too badly \
          conditioned for it"
     )]
     Inaccurate {
-        /// Its name.
+        /// Name of the solver.
         backend: &'static str,
-        /// What it reached.
+        /// The relative residual.
         residual: f64,
-        /// What is accepted.
+        /// The largest accepted residual.
         limit: f64,
     },
 }
 
 impl SolveError {
-    /// Whether rounding alone stands against the solution: a matrix too near to one without inverse.
+    /// Whether rounding is the cause of the failure: the matrix is numerically close to singular.
     pub fn is_of_rounding(&self) -> bool {
         matches!(
             self,
@@ -174,7 +175,7 @@ impl SolveError {
         )
     }
 
-    /// What a failed Cholesky factorisation means to the user.
+    /// Converts the failure of a factorisation.
     fn broken(backend: &dyn LinearSolver, problem: &LinearProblem, reason: Breakdown) -> Self {
         let (backend, size) = (backend.name(), problem.elimination.unknowns());
         match reason {
@@ -185,13 +186,14 @@ impl SolveError {
     }
 }
 
-/// The largest relative residual that passes for a solution.
+/// The largest accepted relative residual of a solution.
 pub(super) const ACCEPTED_RESIDUAL: f64 = 1e-8;
 
-/// Solves `problem` by the backend of that name, and checks the solution; `auto`: see [`automatic`].
+/// Solves `problem` by the solver with this name and checks the solution; for `auto` see
+/// [`automatic`].
 ///
 /// # Errors
-/// An unknown or unsuitable backend, a breakdown, a residual above 1e-8.
+/// An unknown or unsuitable solver, a breakdown, or a residual above 1e-8.
 pub fn solve_linear(
     problem: &LinearProblem,
     solver: &str,
@@ -208,7 +210,7 @@ pub fn solve_linear(
     for &backend in automatic(problem) {
         match solve_with(backend, problem, watch) {
             Ok(solution) => return Ok(solution),
-            // A breakdown of the fast one is no answer yet; an unsuitable problem is.
+            // After a breakdown the next solver is tried; an unsuitable problem is an error.
             Err(unsuitable @ SolveError::Unsuitable { .. }) => return Err(last.unwrap_or(unsuitable)),
             Err(error) => last = Some(error),
         }
@@ -216,10 +218,12 @@ pub fn solve_linear(
     Err(last.unwrap_or(SolveError::Singular { backend: "auto", size: problem.elimination.unknowns() }))
 }
 
-/// The backends that are exact for `problem`, the fastest first; each later one is for where those before break down.
+/// The solvers that are exact for `problem`, the fastest first; later ones are used if earlier ones
+/// break down.
 ///
-/// Square: the conformal Laplacian where the mesh's boundary is held, real where ρ is; else LU. Least squares: Cholesky of
-/// the normal equations, real where they are, else Hermitian; QR, which does not square the condition number, last.
+/// If (2) is square, this is the conformal Laplacian if the mesh's boundary is pinned (real if ρ
+/// is), otherwise LU. For least squares it is Cholesky of the normal equations, real if they are,
+/// otherwise Hermitian, and finally QR, which does not square the condition number.
 pub fn automatic(problem: &LinearProblem) -> &'static [&'static dyn LinearSolver] {
     if cotan::Cotan.suits(problem).is_ok() {
         &[&cotan::Cotan, &lu::Lu]
@@ -234,10 +238,10 @@ pub fn automatic(problem: &LinearProblem) -> &'static [&'static dyn LinearSolver
     }
 }
 
-/// Solves `problem` by this backend, and checks the solution.
+/// Solves `problem` by the given solver and checks the solution.
 ///
 /// # Errors
-/// A problem that does not suit, a breakdown, a residual above 1e-8.
+/// An unsuitable problem, a breakdown, or a residual above 1e-8.
 pub fn solve_with(
     backend: &dyn LinearSolver,
     problem: &LinearProblem,

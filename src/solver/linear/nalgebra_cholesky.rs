@@ -9,7 +9,8 @@ use crate::energy::conformal;
 use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
 
-/// The real normal equations by nalgebra-sparse's Cholesky, which has no fill-reducing ordering: a row to compare with.
+/// Solves the real normal equations by the Cholesky factorisation of nalgebra-sparse, for
+/// comparison; it has no fill-reducing ordering.
 pub(super) struct NalgebraCholesky;
 
 impl LinearSolver for NalgebraCholesky {
@@ -31,7 +32,7 @@ impl LinearSolver for NalgebraCholesky {
         let pattern = pattern(problem.graph, &problem.elimination);
         let size = pattern.size();
         let values = real_values(&pattern, problem.graph, &problem.elimination, &weights);
-        // Its analysis reads both triangles.
+        // Its analysis needs both triangles.
         let mut both = CooMatrix::new(size, size);
         for column in 0..size {
             for k in pattern.columns.entries(column) {

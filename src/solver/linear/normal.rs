@@ -1,7 +1,8 @@
-//! The normal equations `Zᴴ Aᴴ W A Z y = −Zᴴ Aᴴ W A z0` by sparse Cholesky.
+//! The normal equations `Zᴴ Aᴴ W A Z y = −Zᴴ Aᴴ W A z0`, solved by sparse Cholesky.
 //!
-//! With integral weights `Aᴴ W A = D + iK`, D real, K on the boundary alone: where the whole boundary is held the
-//! matrix is real, half the memory and a quarter of the work.
+//! With integral weights `Aᴴ W A = D + iK`, where D is real and K involves only boundary vertices.
+//! If the whole boundary is pinned, the matrix is real, which takes half the memory and a quarter
+//! of the work.
 
 use num_complex::Complex64;
 
@@ -13,12 +14,13 @@ use crate::quad_graph::QuadGraph;
 use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Pattern, Stencils, pairs_of};
 
-/// The pattern of the normal equations: the free vertices of each quad are coupled.
+/// Returns the pattern of the normal equations, in which the free vertices of each quad are
+/// coupled.
 pub(crate) fn pattern(graph: &QuadGraph, elimination: &Elimination) -> Pattern {
     Pattern::new(&[&Stencils::new(&graph.quads)], &elimination.unknown, elimination.unknowns())
 }
 
-/// The sum of the quads' 4 × 4 blocks, each symmetric or Hermitian, on the pattern.
+/// Returns the sum of the quads' 4 × 4 blocks, each symmetric or Hermitian, on the pattern.
 pub(crate) fn assemble<T: Copy + std::ops::AddAssign>(
     pattern: &Pattern,
     graph: &QuadGraph,
@@ -40,7 +42,7 @@ pub(crate) fn assemble<T: Copy + std::ops::AddAssign>(
     values
 }
 
-/// The values of D on the pattern.
+/// Returns the values of D on the pattern.
 pub(crate) fn real_values(
     pattern: &Pattern,
     graph: &QuadGraph,
@@ -52,8 +54,9 @@ pub(crate) fn real_values(
     })
 }
 
-/// From y = 0 one solve with the negative residual of the normal equations, and a second as iterative refinement.
-/// `product` is `Aᴴ W A z`; `correct` overwrites a residual with the solution it asks for.
+/// Solves from y = 0 with the negative residual of the normal equations, then once more as
+/// iterative refinement. `product` computes `Aᴴ W A z`; `correct` overwrites a right-hand side with
+/// the solution.
 pub(crate) fn solve_and_refine(
     elimination: &Elimination,
     product: impl Fn(&[Complex64]) -> Vec<Complex64>,
@@ -72,7 +75,7 @@ pub(crate) fn solve_and_refine(
     z
 }
 
-/// Splits complex values into two real columns, lets `solve` overwrite them, and puts them together again.
+/// Splits complex values into two real columns, lets `solve` overwrite them, and merges them again.
 pub(crate) fn in_real_columns(y: &mut [Complex64], solve: impl FnOnce(&mut [f64])) {
     let size = y.len();
     let mut columns = vec![0.0; 2 * size];
@@ -85,7 +88,7 @@ pub(crate) fn in_real_columns(y: &mut [Complex64], solve: impl FnOnce(&mut [f64]
     }
 }
 
-/// Whether the normal equations of `problem` are real.
+/// Checks whether the normal equations of `problem` are real.
 pub(super) fn real_normal_equations(problem: &LinearProblem) -> Result<(), Unsuitable> {
     if problem.weight != Weight::Integral {
         return Err(Unsuitable::UnitWeights);
@@ -97,7 +100,7 @@ pub(super) fn real_normal_equations(problem: &LinearProblem) -> Result<(), Unsui
     }
 }
 
-/// `D_II z_I = −D_IB z_B` by one real factorisation.
+/// Solves `D_II z_I = −D_IB z_B` by one real factorisation.
 pub(super) struct RealCholesky;
 
 impl LinearSolver for RealCholesky {
@@ -128,7 +131,7 @@ impl LinearSolver for RealCholesky {
     }
 }
 
-/// `Aᴴ W A` complex Hermitian, for unit weights and for free boundary vertices.
+/// Solves with the complex Hermitian matrix `Aᴴ W A`, for unit weights or free boundary vertices.
 pub(super) struct HermitianCholesky;
 
 impl LinearSolver for HermitianCholesky {
@@ -162,7 +165,7 @@ impl LinearSolver for HermitianCholesky {
     }
 }
 
-/// The weights, or the refusal in the backend's name.
+/// Returns the weights, or the error of the solver `backend`.
 pub(super) fn usable_weights(backend: &dyn LinearSolver, problem: &LinearProblem) -> Result<Vec<f64>, SolveError> {
     problem.weights().map_err(|reason| SolveError::Unsuitable { backend: backend.name(), reason: reason.into() })
 }

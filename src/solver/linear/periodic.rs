@@ -1,4 +1,5 @@
-//! Harmonic functions with given periods on a closed surface of genus 1, and the matrix of their energies.
+//! Harmonic functions with given periods on a closed surface of genus 1, and the matrix of their
+//! energies.
 
 use num_complex::Complex64;
 
@@ -9,31 +10,33 @@ use crate::solver::linear::normal::{assemble, in_real_columns, pattern, real_val
 use crate::solver::{Observer, Phase};
 use crate::sparse::{Analysis, Breakdown};
 
-/// The minimiser of H for any two periods is `z = u1 ω1 + u2 ω2`, and `H = ω̄ᵀ P ω`.
+/// The harmonic functions u1, u2 with the periods (1, 0) and (0, 1), each of which minimises H.
 ///
-/// u1 minimises H among the functions with the periods (1, 0), u2 among those with (0, 1).
+/// The minimiser of H with periods ω1, ω2 is `z = u1 ω1 + u2 ω2`, and `H = ω̄ᵀ P ω`.
 #[derive(Clone, Debug)]
 pub struct Harmonic {
     /// u1 and u2 (`nv` each; 0 at the first vertex of each diagonal class). Real with integral weights.
     pub u: [Vec<Complex64>; 2],
-    /// `P_jk = Σ w r̄_j r_k` with r_k the residuals of (2) of u_k: Hermitian.
+    /// `P_jk = Σ w r̄_j r_k`, where r_k are the residuals of (2) for u_k; Hermitian.
     pub energy: PeriodEnergy,
-    /// The largest entry of the normal equations `Aᴴ W A u` at a vertex, relative to `|Aᴴ| W |A| |u|`.
+    /// The largest entry of the normal equations `Aᴴ W A u` at a vertex, relative to `|Aᴴ| W |A|
+    /// |u|`.
     pub residual: f64,
-    /// The factorisation: the name of the linear backend that uses the same.
+    /// Name of the linear solver with the same factorisation.
     pub backend: &'static str,
 }
 
 /// The Hermitian matrix of the quadratic form `H(ω) = P11 |ω1|² + 2 Re(ω̄1 P12 ω2) + P22 |ω2|²`.
 ///
-/// With integral weights H is the Dirichlet energy minus the area `Im(ω̄1 ω2)`: P = D + iK, D real and K12 = ½.
+/// With integral weights H is the Dirichlet energy minus the area `Im(ω̄1 ω2)`: P = D + iK, where D
+/// is real and K12 = ½.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeriodEnergy {
-    /// P11
+    /// P11.
     pub p11: f64,
-    /// P12
+    /// P12.
     pub p12: Complex64,
-    /// P22
+    /// P22.
     pub p22: f64,
 }
 
@@ -43,60 +46,62 @@ impl PeriodEnergy {
         (self.p11 * self.p22 - self.p12.re * self.p12.re).sqrt()
     }
 
-    /// The ratio ω2/ω1 that minimises H for an image of area 1:
+    /// Returns the ratio ω2/ω1 that minimises H for an image of area 1:
     ///
     /// ```text
     /// τ = (−Re P12 + i √(P11 P22 − (Re P12)²)) / P22
     /// ```
     ///
-    /// By a change of basis of the periods it changes as they do, so that the shape of the image does not depend on the
-    /// basis. H for ω1 = 1 instead, [`PeriodEnergy::least_squares`], prefers small images: its τ has the same real part and
-    /// an imaginary part too small by the factor `2 √det`, which is 1 + O(h²).
+    /// Under a change of basis it transforms like the periods, so that the shape of the image does
+    /// not depend on the basis. The minimum of H for ω1 = 1 instead,
+    /// [`PeriodEnergy::least_squares`], favours small images: its τ has the same real part and an
+    /// imaginary part that is too small by the factor `2 √det`, which is 1 + O(h²).
     pub fn ratio(&self) -> Complex64 {
         Complex64::new(-self.p12.re, self.root()) / self.p22
     }
 
-    /// The ratio that minimises H where ω1 = 1: `τ = −P̄12 / P22`, with integral weights `(−Re P12 + i/2) / P22`.
+    /// Returns the ratio that minimises H for ω1 = 1: `τ = −P̄12 / P22`, with integral weights
+    /// `(−Re P12 + i/2) / P22`.
     pub fn least_squares(&self) -> Complex64 {
         -self.p12.conj() / self.p22
     }
 
-    /// The least H of an image of area 1, `2 √(P11 P22 − (Re P12)²) − 2 Im P12`.
+    /// Returns the minimum of H for an image of area 1, `2 √(P11 P22 − (Re P12)²) − 2 Im P12`.
     pub fn least(&self) -> f64 {
         2.0 * (self.root() - self.p12.im)
     }
 }
 
-/// No solution.
+/// The harmonic functions cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HarmonicError {
-    /// Integral weights that are undefined.
+    /// Integral weights are undefined.
     #[error(transparent)]
     NonPositiveRho(#[from] NonPositiveRho),
-    /// A pivot that is not positive.
+    /// A pivot is not positive.
     #[error(
         "the normal equations of {size} unknowns are not positive definite to rounding: the mesh has nearly degenerate \
-         faces; mend these, or use another dual point"
+         faces; repair these, or use another dual point"
     )]
     NotPositiveDefinite {
-        /// Unknowns.
+        /// Number of unknowns.
         size: usize,
     },
-    /// The factor does not fit.
+    /// The factor does not fit into memory or its indices.
     #[error("the factor of {size} unknowns does not fit into memory or its indices")]
     TooLarge {
-        /// Unknowns.
+        /// Number of unknowns.
         size: usize,
     },
-    /// The solution is not one.
+    /// The residual of the solution is too large.
     #[error(
-        "the normal equations are met to {residual:e} only, above {limit:e}: the mesh is too badly conditioned; mend nearly \
+        "the normal equations have a relative residual of {residual:e}, above {limit:e}: the mesh is too badly conditioned; repair nearly \
          degenerate faces, or use another dual point"
     )]
     Inaccurate {
-        /// What was reached.
+        /// The relative residual.
         residual: f64,
-        /// What is accepted.
+        /// The largest accepted residual.
         limit: f64,
     },
 }
@@ -104,8 +109,8 @@ pub enum HarmonicError {
 const UNIT: [[Complex64; 2]; 2] = [[Complex64::ONE, Complex64::ZERO], [Complex64::ZERO, Complex64::ONE]];
 
 impl Harmonic {
-    /// Solves for u1 and u2 by one factorisation, real with integral weights: there `Aᴴ W A = D + iK`, and K, which lives on
-    /// boundaries, is 0.
+    /// Solves for u1 and u2 by one factorisation. With integral weights it is real: `Aᴴ W A = D +
+    /// iK`, and K, which involves only boundary vertices, is 0.
     ///
     /// # Errors
     /// [`HarmonicError`].
@@ -134,7 +139,7 @@ impl Harmonic {
             let scale = conformal::normal_product_scale_at(graph, &weights, corners);
             for &v in &elimination.free {
                 let relative = product[v as usize].norm() / scale[v as usize].max(f64::MIN_POSITIVE);
-                // `f64::max` would pass over a NaN.
+                // `f64::max` would ignore a NaN.
                 residual = if relative <= residual { residual } else { relative };
             }
         }
@@ -146,7 +151,8 @@ impl Harmonic {
     }
 }
 
-/// Holds the first vertex of each diagonal class at 0: H sees the classes through their own differences alone.
+/// Pins the first vertex of each diagonal class at 0, because H depends only on differences within
+/// a class.
 fn hold_classes(graph: &QuadGraph) -> Elimination {
     let (class, classes) = graph.diagonal_classes();
     let mut fixed = Fixed::default();
@@ -159,7 +165,8 @@ fn hold_classes(graph: &QuadGraph) -> Elimination {
     Elimination::new(graph.vertices, &fixed)
 }
 
-/// Both at once: the real and the imaginary part of one function with the periods 1 and i.
+/// Computes both functions at once, as the real and the imaginary part of one function with the
+/// periods 1 and i.
 fn real(
     graph: &QuadGraph,
     periods: &Periods,

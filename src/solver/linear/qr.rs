@@ -9,7 +9,8 @@ use crate::problem::linear::LinearProblem;
 use crate::solver::{Observer, Phase};
 use crate::sparse::interop::faer_view;
 
-/// `W^½ A Z y = −W^½ A z0` in least squares by sparse QR, which does not square the condition number.
+/// Solves `W^½ A Z y = −W^½ A z0` in least squares by sparse QR, which does not square the
+/// condition number.
 pub(super) struct Qr;
 
 impl LinearSolver for Qr {
