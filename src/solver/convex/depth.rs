@@ -2,20 +2,24 @@ use super::Weighted;
 use crate::surface::edges::Edges;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// To which neighbours weights draw a vertex.
+/// The neighbours towards which weights pull a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Towards {
-    /// To all that are nearer to the boundary.
+    /// All neighbours closer to the boundary.
     All,
-    /// To one of them, another one each as far as that goes.
+    /// One of these, a different one for each vertex if possible.
     One,
 }
 
-/// 1 towards vertices nearer to the boundary, `others` towards all others, nearness counted in edges.
+/// Returns weights 1 towards vertices closer to the boundary and `others` towards all other
+/// vertices, where distance is the number of edges.
 ///
-/// A deep part of the surface, a finger of length d and girth g, has the size `e^{−2πd/g}` in a harmonic map, and with any weights that
-/// are symmetric or see geometry about that. Here each ring of it is drawn out to the one before. With [`Towards::All`] it still is no
-/// larger than the mean of its neighbours there, of four vertices a ring 0.7 of it; with [`Towards::One`] it shrinks as little as `others` is small.
+/// # Rationale
+/// A protrusion of length d and girth g has size `e^{−2πd/g}` in a harmonic map, and about that for
+/// any symmetric or geometric weights. These weights pull each ring of a protrusion towards the
+/// previous ring. With [`Towards::All`] a ring is still at most as large as the mean of its
+/// neighbours in the previous one, a factor of 0.7 for rings of four vertices. With
+/// [`Towards::One`] the shrinkage tends to zero with `others`.
 pub fn outward(disc: &OrientedMesh, towards: Towards, others: f64) -> Vec<Weighted> {
     let edges = Edges::new(&disc.faces, disc.positions.len());
     let depth = depths(disc, &edges);
@@ -35,8 +39,11 @@ pub fn outward(disc: &OrientedMesh, towards: Towards, others: f64) -> Vec<Weight
     both.map(weighted).collect()
 }
 
-/// For each vertex a neighbour nearer to the boundary, one that as few others have chosen as can be: where two vertices of a ring go to one of
-/// the ring before, they come to lie on each other, and rings of three are done for. `u32::MAX` where there is none.
+/// Returns for each vertex a neighbour closer to the boundary that as few other vertices as
+/// possible have chosen, or `u32::MAX`.
+///
+/// If two vertices of a ring chose the same vertex of the previous ring, their images would nearly
+/// coincide, and rings of three vertices would degenerate.
 fn matched(ends: &[[u32; 2]], is_nearer: &dyn Fn(u32, u32) -> bool, vertices: usize) -> Vec<u32> {
     let mut nearer = vec![Vec::new(); vertices];
     for &[a, b] in ends {
@@ -57,7 +64,7 @@ fn matched(ends: &[[u32; 2]], is_nearer: &dyn Fn(u32, u32) -> bool, vertices: us
     nearer.iter().map(choose).collect()
 }
 
-/// The least number of edges from each vertex to the boundary.
+/// The smallest number of edges from each vertex to the boundary.
 fn depths(disc: &OrientedMesh, edges: &Edges) -> Vec<u32> {
     let vertices = disc.positions.len();
     let mut offsets = vec![0u32; vertices + 1];

@@ -1,12 +1,15 @@
-//! Convex combination maps: every inner vertex of the mesh is a weighted mean of its neighbours, the boundary is held.
+//! Convex combination maps: every inner vertex of the mesh is a weighted mean of its neighbours,
+//! and the boundary is pinned.
 //!
 //! ```text
 //! Σ_j w_ij (z_j − z_i) = 0        at every inner vertex i, over its neighbours j
 //! ```
 //!
-//! With positive weights, whether w_ij = w_ji or not, and the boundary held on a strictly convex curve, every face is mapped to a
-//! strictly convex one and the map is one-to-one, if no two inner faces share more than a vertex or an edge (Tutte 1963; Floater, *One-to-one
-//! piecewise linear mappings over triangulations*, Math. Comp. 2003). New weights are one row of [`EDGE_WEIGHTS`].
+//! With positive weights, symmetric or not, and the boundary pinned on a strictly convex curve,
+//! every face is mapped to a strictly convex one and the map is injective, provided that no two
+//! inner faces share more than a vertex or an edge (Tutte 1963; Floater, *One-to-one piecewise
+//! linear mappings over triangulations*, Math. Comp. 2003). New weights are one row of
+//! [`EDGE_WEIGHTS`].
 
 mod depth;
 mod solve;
@@ -17,30 +20,31 @@ pub use solve::{ConvexSolution, convex_map};
 
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// The weight `w_ij` of a vertex's neighbour. Of a pair that occurs several times the weights add up.
+/// The weight `w_ij` of a neighbour of a vertex. The weights of pairs that occur several times are
+/// added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weighted {
-    /// i.
+    /// The vertex i.
     pub vertex: u32,
-    /// j.
+    /// The neighbour j.
     pub neighbour: u32,
-    /// w_ij, in any unit that is the same for all neighbours of i.
+    /// The weight w_ij, in a unit common to all neighbours of i.
     pub weight: f64,
 }
 
-/// Weights by name.
+/// An entry of the table of weights.
 pub struct EdgeWeights {
-    /// Its name for `--weights`.
+    /// The name, as used in options.
     pub name: &'static str,
-    /// One line for `riemap list`.
+    /// A description of one line.
     pub about: &'static str,
-    /// Whether all weights are positive, so that the map is one-to-one but for rounding.
+    /// Whether all weights are positive, so that the map is injective up to rounding.
     pub convex: bool,
-    /// The weights of a disc.
+    /// Computes the weights of a disc.
     pub make: fn(&OrientedMesh) -> Result<Vec<Weighted>, ConvexError>,
 }
 
-/// All weights.
+/// The table of all weights.
 pub static EDGE_WEIGHTS: &[EdgeWeights] = &[
     EdgeWeights {
         name: "mean-value",
@@ -68,10 +72,10 @@ pub static EDGE_WEIGHTS: &[EdgeWeights] = &[
     },
 ];
 
-/// The row of the weights of that name.
+/// Returns the table entry of the weights with this name.
 ///
 /// # Errors
-/// No such name.
+/// [`ConvexError::Unknown`].
 pub fn edge_weights(name: &str) -> Result<&'static EdgeWeights, ConvexError> {
     EDGE_WEIGHTS.iter().find(|row| row.name == name).ok_or_else(|| ConvexError::Unknown {
         name: name.to_owned(),
@@ -79,47 +83,49 @@ pub fn edge_weights(name: &str) -> Result<&'static EdgeWeights, ConvexError> {
     })
 }
 
-/// No convex combination map.
+/// A convex combination map cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConvexError {
-    /// No such weights.
+    /// No weights have this name.
     #[error("unknown weights `{name}`; known: {known}")]
     Unknown {
-        /// The name asked for.
+        /// The requested name.
         name: String,
-        /// The names there are.
+        /// The known names.
         known: String,
     },
-    /// Cotangents of quads.
-    #[error("cotan weights are of triangles, and the faces have {corners} corners: use mean-value or uniform weights")]
+    /// Cotangent weights are defined only for triangles.
+    #[error(
+        "cotan weights are defined for triangles only, and the faces have {corners} corners: use mean-value or uniform weights"
+    )]
     NotTriangles {
-        /// Corners of each face.
+        /// Number of corners of each face.
         corners: usize,
     },
-    /// An angle of 0 or π.
+    /// An angle is 0 or π.
     #[error("{name} weights are not defined at face {face}: it has no area; move or remove a vertex")]
     NoAngle {
-        /// The weights.
+        /// Name of the weights.
         name: &'static str,
-        /// The first such face, as the source numbers them.
+        /// The first such face, as an index of the source.
         face: u32,
     },
-    /// A boundary vertex that is free.
+    /// A boundary vertex is free.
     #[error("boundary vertex {vertex} is free, and convex combination maps hold the whole boundary of the mesh")]
     FreeBoundary {
-        /// The first such vertex, as the source numbers them.
+        /// The first such vertex, as an index of the source.
         vertex: u32,
     },
-    /// The matrix has no inverse.
+    /// The matrix is singular.
     #[error("the mean-value system of {size} vertices is singular to rounding: the mesh has nearly degenerate faces")]
     Singular {
-        /// Unknowns.
+        /// Number of unknowns.
         size: usize,
     },
-    /// The factor does not fit.
+    /// The factor does not fit into memory or its indices.
     #[error("the factor of {size} unknowns does not fit into memory or its indices")]
     TooLarge {
-        /// Unknowns.
+        /// Number of unknowns.
         size: usize,
     },
 }

@@ -16,15 +16,19 @@ use crate::surface::oriented_mesh::OrientedMesh;
 pub struct ConvexSolution {
     /// The images of the vertices of the mesh.
     pub z: Vec<Complex64>,
-    /// The largest `|z_i − m_i| / (|z_i| + |m_i|)` over the free vertices, m_i the weighted mean of the neighbours.
+    /// The largest `|z_i − m_i| / (|z_i| + |m_i|)` over the free vertices, where m_i is the
+    /// weighted mean of the neighbours.
     pub residual: f64,
 }
 
-/// The map of the vertices of `disc` under which every vertex that `fixed` does not hold is the mean of its neighbours by
-/// these weights. Real sparse LU of `D − W`, rows divided by their sums D, with one step of refinement.
+/// Computes the map of `disc` in which every vertex that is not pinned by `fixed` is the weighted
+/// mean of its neighbours.
+///
+/// The method is real sparse LU of `D − W` with rows divided by their sums D, and one step of
+/// iterative refinement.
 ///
 /// # Errors
-/// A boundary vertex that is free; a matrix without inverse, or too large.
+/// A free boundary vertex; a matrix that is singular or too large.
 pub fn convex_map(
     disc: &OrientedMesh,
     weights: &[Weighted],

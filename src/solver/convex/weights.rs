@@ -1,18 +1,19 @@
-//! Weights from the shapes of the faces.
+//! Weights computed from the shapes of the faces.
 
 use super::{ConvexError, Weighted};
 use crate::geometry::vector::{cross, dot, norm};
 use crate::surface::edges::Edges;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// 1 along every edge, both ways.
+/// Weight 1 along every edge, in both directions.
 pub(super) fn uniform(disc: &OrientedMesh) -> Result<Vec<Weighted>, ConvexError> {
     let edges = Edges::new(&disc.faces, disc.positions.len());
     Ok(edges.ends.iter().flat_map(|&[a, b]| both_ways(a, b, 1.0)).collect())
 }
 
-/// `w_ij = (tan α/2 + tan β/2) / |vi − vj|` with α and β the angles at vi on both sides of the edge (Floater 2003): of any polygons,
-/// and of a flat mesh `Σ w_ij (v_j − v_i) = 0`.
+/// Mean-value weights `w_ij = (tan α/2 + tan β/2) / |vi − vj|`, where α and β are the angles at vi
+/// on both sides of the edge (Floater 2003). They are defined for all polygons, and `Σ w_ij (v_j −
+/// v_i) = 0` on a flat mesh.
 pub(super) fn mean_value(disc: &OrientedMesh) -> Result<Vec<Weighted>, ConvexError> {
     let mut weights = Vec::with_capacity(2 * disc.faces.corners().len());
     for (f, polygon) in disc.faces.iter().enumerate() {
@@ -22,7 +23,8 @@ pub(super) fn mean_value(disc: &OrientedMesh) -> Result<Vec<Weighted>, ConvexErr
             let [to_ahead, to_behind] = [1, n - 1].map(|step| disc.spoke(f, k, (k + step) % n));
             let (product, along, area) =
                 (norm(to_ahead) * norm(to_behind), dot(to_ahead, to_behind), norm(cross(to_ahead, to_behind)));
-            // tan α/2 = sin α / (1 + cos α) = (1 − cos α) / sin α: of the two the one without cancellation.
+            // tan α/2 = sin α / (1 + cos α) = (1 − cos α) / sin α; the form without cancellation is
+            // used.
             let tangent = if along > 0.0 { area / (product + along) } else { (product - along) / area };
             for (neighbour, d) in [(ahead, to_ahead), (behind, to_behind)] {
                 let weight = tangent / norm(d);
@@ -36,7 +38,7 @@ pub(super) fn mean_value(disc: &OrientedMesh) -> Result<Vec<Weighted>, ConvexErr
     Ok(weights)
 }
 
-/// `w_ij = ½ (cot α + cot β)` with α and β the angles opposite the edge.
+/// Cotangent weights `w_ij = ½ (cot α + cot β)`, where α and β are the angles opposite the edge.
 pub(super) fn cotan(disc: &OrientedMesh) -> Result<Vec<Weighted>, ConvexError> {
     let mut weights = Vec::with_capacity(2 * disc.faces.corners().len());
     for (f, polygon) in disc.faces.iter().enumerate() {
