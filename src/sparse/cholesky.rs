@@ -1,5 +1,6 @@
-//! faer's sparse Cholesky on lower triangles with 32-bit indices. Symbolic and numeric factorisation are separate, so
-//! that a pattern is analysed once.
+//! faer's sparse Cholesky factorisation of lower triangles with 32-bit indices.
+//!
+//! Symbolic and numeric factorisation are separate, so that a pattern is analysed once.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
@@ -13,7 +14,7 @@ use faer::{Conj, MatMut, Par, Side};
 
 use super::Columns;
 
-/// No factor.
+/// A factorisation failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Breakdown {
     /// A pivot is not positive.
@@ -22,18 +23,18 @@ pub enum Breakdown {
     /// A pivot is 0 or not finite.
     #[error("the matrix is singular to rounding")]
     Singular,
-    /// Out of memory or of indices.
+    /// The factor does not fit into memory or its indices.
     #[error("the factor does not fit into memory or its indices")]
     TooLarge,
 }
 
-/// In what order unknowns are eliminated.
+/// The order in which unknowns are eliminated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
-    /// By approximate minimum degree.
+    /// An order by approximate minimum degree.
     #[default]
     Amd,
-    /// As they are numbered, by [`dissect`](super::dissect).
+    /// The order in which they are numbered, for example by [`dissect`](super::dissect).
     AsGiven,
 }
 
@@ -58,7 +59,7 @@ impl<'a> Analysis<'a> {
         Analysis::ordered(columns, Order::Amd)
     }
 
-    /// Analyses a pattern in this order.
+    /// Analyses a pattern with the given order.
     ///
     /// # Errors
     /// [`Breakdown::TooLarge`].
@@ -66,7 +67,7 @@ impl<'a> Analysis<'a> {
         Analysis::with(columns, order, Default::default())
     }
 
-    /// Analyses a pattern in faer's terms.
+    /// Analyses a pattern with parameters of faer.
     pub(super) fn with(
         columns: &'a Columns,
         order: Order,
@@ -75,7 +76,7 @@ impl<'a> Analysis<'a> {
         match order {
             Order::Amd => Analysis::made(columns, SymmetricOrdering::Amd, parameters),
             Order::AsGiven => {
-                // Not faer's `Identity`, which wants the upper triangle.
+                // faer's `Identity` is not used, because it needs the upper triangle.
                 let same: Vec<u32> = (0..columns.size() as u32).collect();
                 let custom = SymmetricOrdering::Custom(PermRef::new_checked(&same, &same, columns.size()));
                 Analysis::made(columns, custom, parameters)
@@ -83,7 +84,7 @@ impl<'a> Analysis<'a> {
         }
     }
 
-    /// Analyses a pattern; `order` has the unknowns in the order in which they are eliminated, each once.
+    /// Analyses a pattern; `order` lists each unknown once, in the order of elimination.
     ///
     /// # Errors
     /// [`Breakdown::TooLarge`].
@@ -106,15 +107,16 @@ impl<'a> Analysis<'a> {
         Ok(Analysis { columns, symbolic })
     }
 
-    /// The analysis without the pattern.
+    /// Returns the analysis without the pattern.
     pub(super) fn into_symbolic(self) -> SymbolicCholesky<u32> {
         self.symbolic
     }
 
-    /// Factorises the matrix with these values on the pattern. The memory of `spare`, an earlier factor, is used again.
+    /// Factorises the matrix with these values on the pattern. The memory of `spare`, an earlier
+    /// factor, is reused.
     ///
     /// # Errors
-    /// A pivot that is not positive; lack of memory.
+    /// A pivot that is not positive; insufficient memory.
     pub fn factorise<T: ComplexField>(
         &self,
         values: &[T],
@@ -126,19 +128,20 @@ impl<'a> Analysis<'a> {
         Ok(factor)
     }
 
-    /// Memory for [`Analysis::refactorise`].
+    /// Returns an empty factor for [`Analysis::refactorise`].
     pub fn unfactorised<T: ComplexField>(&self) -> Cholesky<'_, T> {
         Cholesky { symbolic: &self.symbolic, values: Vec::new() }
     }
 
-    /// Factorises the matrix with these values on the pattern in the memory of `factor`, which is kept on failure too.
+    /// Factorises the matrix with these values on the pattern in the memory of `factor`, which is
+    /// kept on failure.
     ///
     /// # Errors
-    /// A pivot that is not positive; lack of memory.
+    /// A pivot that is not positive; insufficient memory.
     pub fn refactorise<T: ComplexField>(&self, values: &[T], factor: &mut Cholesky<'_, T>) -> Result<(), Breakdown> {
         let length = self.symbolic.len_val();
         factor.values.try_reserve_exact(length.saturating_sub(factor.values.len())).map_err(|_| Breakdown::TooLarge)?;
-        // What is there already is overwritten.
+        // Existing values are overwritten.
         factor.values.resize(length, faer::traits::math_utils::zero());
         let scratch = self.symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| Breakdown::TooLarge)?;
@@ -159,12 +162,13 @@ impl<'a> Analysis<'a> {
 }
 
 impl<T: ComplexField> Cholesky<'_, T> {
-    /// The values of the factor, in faer's order.
+    /// Returns the values of the factor, in faer's order.
     pub(super) fn into_values(self) -> Vec<T> {
         self.values
     }
 
-    /// Overwrites the columns of `right` (each as long as the matrix, one behind the other) with the solutions.
+    /// Overwrites the columns of `right` (concatenated, each of the size of the matrix) with the
+    /// solutions.
     pub fn solve_in_place(&self, right: &mut [T]) {
         let size = self.symbolic.nrows();
         if size == 0 {

@@ -1,27 +1,31 @@
-//! Nested dissection by places: an order of elimination that keeps fill low in matrices which couple near vertices of a
-//! surface.
+//! Nested dissection by positions: an elimination order that keeps fill low in matrices that couple
+//! nearby vertices of a surface.
 
 use super::separator::Band;
 
-/// Pieces at most in a part that is not divided further: its few vertices make one supernode.
+/// Largest number of pieces in a part that is not divided further: its few vertices form one
+/// supernode.
 const LEAF: usize = 32;
 
-/// Smaller parts are cut across their longest side without further thought: they have little part in the fill.
+/// Smaller parts are cut across their longest side, because they contribute little fill.
 const LARGE: usize = 300;
 
-/// Sides that are shorter than this share of the longest one are not cut across.
+/// Sides shorter than this share of the longest one are not considered for cuts.
 const SHORT: f64 = 0.3;
 
-/// In parts of more pieces a better cut is sought next to the first one: the large parts have most of the work.
+/// In parts with more pieces a better cut is sought near the first one: the large parts dominate
+/// the work.
 const REFINED: usize = 3000;
 
-/// The vertices that are `free`, in an order of elimination. `places` has a place for every vertex; `pieces` are the
-/// sets of vertices that the matrix couples.
+/// Returns the `free` vertices in an elimination order. `places` are the positions of all vertices;
+/// `pieces` are the sets of vertices that the matrix couples.
 ///
-/// The pieces are halved across one axis of space, the one that cuts the fewest vertices; the vertices on the cut, made as
-/// few as can be (a maximum flow), come after all others, and the halves are divided in the same way (A. George, *Nested dissection
-/// of a regular finite element mesh*, 1973). On a surface of n vertices cuts have O(√n): fill O(n log n), work O(n^1.5). The
-/// order is one of the elimination tree, children before parents.
+/// The pieces are halved across the coordinate axis for which the fewest vertices are on the cut;
+/// their number is then minimised by a maximum flow. These vertices come after all others, and the
+/// halves are divided in the same way (A. George, *Nested dissection of a regular finite element
+/// mesh*, 1973). On a surface of n vertices cuts have O(√n) vertices, the fill is O(n log n) and
+/// the work O(n^1.5). The order is a postorder of the elimination tree: children come before
+/// parents.
 pub fn dissect(pieces: &[[u32; 4]], places: &[[f64; 3]], free: impl Fn(u32) -> bool) -> Vec<u32> {
     let free: Vec<bool> = (0..places.len() as u32).map(free).collect();
     let count = free.iter().filter(|free| **free).count();
@@ -43,13 +47,13 @@ pub fn dissect(pieces: &[[u32; 4]], places: &[[f64; 3]], free: impl Fn(u32) -> b
     dissection.order
 }
 
-/// The sum of the places of the vertices: for comparisons as good as their mean.
+/// The sum of the positions of the vertices, equivalent to their mean for comparisons.
 fn middle(vertices: [u32; 4], places: &[[f64; 3]]) -> [f64; 3] {
     let [a, b, c, d] = vertices.map(|v| places[v as usize]);
     [0, 1, 2].map(|axis| a[axis] + b[axis] + c[axis] + d[axis])
 }
 
-/// Vertices that are coupled, and where they are.
+/// Coupled vertices and their position.
 #[derive(Clone, Copy)]
 pub(super) struct Piece {
     at: [f64; 3],
@@ -57,7 +61,7 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// A piece of no matter what place.
+    /// A piece whose position is irrelevant.
     #[cfg(test)]
     pub fn nowhere(vertices: [u32; 4]) -> Self {
         Piece { at: [0.0; 3], vertices }
@@ -65,18 +69,18 @@ impl Piece {
 }
 
 struct Dissection {
-    /// Not numbered yet.
+    /// Whether a vertex is free and not yet numbered.
     free: Vec<bool>,
-    /// What a vertex was last seen as: the tag of one side of a cut, or that of the cut, which is one more.
+    /// The last marking of each vertex: the tag of a side of a cut, or one more for the cut itself.
     mark: Vec<u32>,
     tag: u32,
-    /// Filled from its end; `left` are missing.
+    /// The order, filled from its end; `left` entries are missing.
     order: Vec<u32>,
     left: usize,
 }
 
 impl Dissection {
-    /// Numbers a vertex, before all those numbered so far.
+    /// Numbers a vertex before all those numbered so far.
     fn number(&mut self, v: u32) {
         if std::mem::replace(&mut self.free[v as usize], false) {
             self.left -= 1;
@@ -84,8 +88,8 @@ impl Dissection {
         }
     }
 
-    /// Brings the pieces of one side of a cut before those of the other, numbers the vertices on the cut, and returns the
-    /// number of pieces on the first side: neither is empty.
+    /// Reorders the pieces so that those of one side of a cut come first, numbers the vertices on
+    /// the cut, and returns the number of pieces on the first side. Neither side is empty.
     fn divide(&mut self, pieces: &mut [Piece]) -> usize {
         let half = pieces.len() / 2;
         let mut last = None;
@@ -99,7 +103,7 @@ impl Dissection {
             halve(pieces, half, axis);
         }
         let mut middle = half;
-        // Halves that have nothing in common are cut as well as can be.
+        // Halves without common vertices need no better cut.
         if pieces.len() > REFINED && (1..half).contains(&cut.len()) {
             middle = self.refine(pieces, half, axis, cut.len());
             cut = self.cut(pieces, middle);
@@ -108,8 +112,8 @@ impl Dissection {
         middle
     }
 
-    /// Moves the cut across `axis`, after `half` of the pieces, to where it has the fewest vertices among `wide` pieces on each
-    /// side, and returns the number of pieces on the first side.
+    /// Moves the cut across `axis`, after `half` of the pieces, to where it has the fewest vertices
+    /// among `wide` pieces on each side, and returns the number of pieces on the first side.
     fn refine(&mut self, pieces: &mut [Piece], half: usize, axis: usize, wide: usize) -> usize {
         halve(&mut pieces[..half], half - wide, axis);
         halve(&mut pieces[half..], wide, axis);
@@ -133,7 +137,8 @@ impl Dissection {
         middle
     }
 
-    /// The vertices without number that are on both sides, of the first `middle` pieces and of the others.
+    /// Returns the vertices without number that are on both sides: the first `middle` pieces, and
+    /// the others.
     fn cut(&mut self, pieces: &[Piece], middle: usize) -> Vec<u32> {
         let (side, cut) = (self.tag + 2, self.tag + 3);
         self.tag = cut;
@@ -150,7 +155,7 @@ impl Dissection {
     }
 }
 
-/// The axes that a cut may go across, the longest side first.
+/// Returns the axes that cuts may cross, the longest side first.
 fn axes(pieces: &[Piece]) -> Vec<usize> {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for piece in pieces {
@@ -169,7 +174,7 @@ fn axes(pieces: &[Piece]) -> Vec<usize> {
     axes
 }
 
-/// Brings the lower `half` of the pieces before the others.
+/// Reorders the pieces so that the lower `half` comes first.
 fn halve(pieces: &mut [Piece], half: usize, axis: usize) {
     pieces.select_nth_unstable_by(half, |a, b| a.at[axis].total_cmp(&b.at[axis]));
 }

@@ -1,4 +1,4 @@
-//! Entries of symmetric factors: real or complex numbers, that multiply complex columns.
+//! Entries of symmetric factors: real or complex numbers that multiply complex columns.
 
 use std::ops::{Mul, MulAssign, Neg, SubAssign};
 
@@ -6,13 +6,13 @@ use faer::traits::ComplexField;
 use num_complex::Complex64;
 use pulp::bytemuck::cast_slice;
 
-/// Strands in which products are summed.
+/// Number of partial sums in which products are accumulated.
 pub(super) const STRANDS: usize = 8;
 
 /// A real or complex number in a factor whose right-hand sides are complex.
 ///
-/// Products with x are formed on real numbers as they lie in memory, `c x = Re x · c + i Im x · c`, so that no part has to be
-/// moved.
+/// Products with x are computed on real numbers in memory order, `c x = Re x · c + i Im x · c`, so
+/// that parts need not be rearranged.
 pub trait Entry:
     ComplexField
     + Copy
@@ -22,35 +22,35 @@ pub trait Entry:
     + Neg<Output = Self>
     + Mul<Complex64, Output = Complex64>
 {
-    /// 0
+    /// Zero.
     const ZERO: Self;
-    /// 1
+    /// One.
     const ONE: Self;
-    /// Real numbers in an entry.
+    /// Number of real numbers in an entry.
     const PARTS: usize;
 
-    /// Real and imaginary parts, one behind the other.
+    /// Returns the real and imaginary parts, interleaved.
     fn parts(entries: &[Self]) -> &[f64];
 
-    /// The principal square root, not a number where a real number has none.
+    /// Returns the principal square root; NaN for negative real numbers.
     fn root(self) -> Self;
 
-    /// 1/c
+    /// Returns 1/c.
     fn inverse(self) -> Self;
 
-    /// x/c
+    /// Returns x/c.
     fn divide(self, x: Complex64) -> Complex64;
 
-    /// Whether it is a number other than 0.
+    /// Whether it is finite and not 0.
     fn is_pivot(self) -> bool;
 
-    /// `Σ c x` of row i, from the parts of `Σ c Re x` and of `Σ c Im x`.
+    /// Returns `Σ c x` for row i from the parts of `Σ c Re x` and `Σ c Im x`.
     fn sum(by_re: &[f64], by_im: &[f64], i: usize) -> Complex64;
 
-    /// Sets entry i of x in the two arrays that the parts of c are multiplied with for `Σ c x`.
+    /// Stores entry i of x in the two arrays by which the parts of c are multiplied for `Σ c x`.
     fn put(i: usize, x: Complex64, first: &mut [f64], second: &mut [f64]);
 
-    /// `Σ c x`, from the products of the parts of c with both arrays, in strands.
+    /// Returns `Σ c x` from the partial sums of the products of the parts of c with both arrays.
     fn total(first: [f64; STRANDS], second: [f64; STRANDS]) -> Complex64;
 }
 
@@ -129,14 +129,15 @@ impl Entry for Complex64 {
         Complex64::new(by_re[2 * i] - by_im[2 * i + 1], by_re[2 * i + 1] + by_im[2 * i])
     }
 
-    /// The second array has x with its real and imaginary parts exchanged.
+    /// The second array holds x with real and imaginary parts exchanged.
     #[inline(always)]
     fn put(i: usize, x: Complex64, first: &mut [f64], second: &mut [f64]) {
         (first[2 * i], first[2 * i + 1]) = (x.re, x.im);
         (second[2 * i], second[2 * i + 1]) = (x.im, x.re);
     }
 
-    /// Even strands of the first array have products of real parts, odd ones of imaginary parts.
+    /// Even partial sums of the first array are products of real parts, odd ones of imaginary
+    /// parts.
     #[inline(always)]
     fn total([a, b, c, d, e, f, g, h]: [f64; STRANDS], second: [f64; STRANDS]) -> Complex64 {
         let re = ((a - b) + (c - d)) + ((e - f) + (g - h));

@@ -1,9 +1,10 @@
-//! nalgebra-sparse holds the assembled systems, faer factorises them: the same arrays, seen from both.
+//! Conversion from nalgebra-sparse, which holds the assembled systems, to faer, which factorises
+//! them.
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use nalgebra_sparse::CscMatrix;
 
-/// faer's view of a nalgebra-sparse matrix; nothing is copied.
+/// Returns faer's view of a nalgebra-sparse matrix, without copying.
 pub fn faer_view<T>(matrix: &CscMatrix<T>) -> SparseColMatRef<'_, usize, T> {
     let (offsets, rows, values) = matrix.csc_data();
     SparseColMatRef::new(

@@ -1,8 +1,9 @@
-//! Lists of numbers, one for every key, one behind the other.
+//! Concatenated lists of numbers, one list for each key.
 
 use std::ops::Range;
 
-/// For every key `0 .. n` a list of numbers, in the order in which they were given; made by counting.
+/// A list of numbers for each key `0 .. n`, in the order in which they were given; built by
+/// counting sort.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lists {
     offsets: Vec<u32>,
@@ -10,7 +11,7 @@ pub struct Lists {
 }
 
 impl Lists {
-    /// The lists of `keys` keys that these (key, number) pairs make up.
+    /// Builds the lists of `keys` keys from (key, number) pairs.
     pub fn new(keys: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
         let mut offsets = vec![0u32; keys + 1];
         pairs.clone().for_each(|(key, _)| offsets[key as usize + 1] += 1);
@@ -41,12 +42,12 @@ impl Lists {
         &self.items[self.range(key)]
     }
 
-    /// Where the list of a key is in [`Lists::items`].
+    /// The range of a key's list in [`Lists::items`].
     pub fn range(&self, key: u32) -> Range<usize> {
         self.offsets[key as usize] as usize..self.offsets[key as usize + 1] as usize
     }
 
-    /// All lists, one behind the other.
+    /// All lists, concatenated.
     pub fn items(&self) -> &[u32] {
         &self.items
     }

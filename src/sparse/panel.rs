@@ -1,15 +1,17 @@
-//! Triangular solves with one supernode, for two real right-hand sides at once. A solve reads each value of the factor once, and
-//! takes as long as that: columns are taken together, so that little else is read beside them. Sums are in the order
-//! of the columns, whatever the width of the processor's vectors.
+//! Triangular solves with one supernode, for two real right-hand sides at once.
+//!
+//! A solve reads each value of the factor once, and this memory traffic determines its time;
+//! several columns are therefore processed together, so that little else is read. The order of
+//! summation does not depend on the vector width of the processor.
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
 use super::SplitColumns;
 
-/// Columns that are taken together.
+/// Number of columns that are processed together.
 const FORWARD: usize = 4;
 
-/// The columns of a supernode, dense, one behind the other: its own rows, then those below.
+/// The dense columns of a supernode, concatenated: its own rows, then the rows below.
 pub(super) struct Panel<'a> {
     start: usize,
     width: usize,
@@ -31,7 +33,7 @@ impl<'a> Panel<'a> {
         self.start..self.start + self.width
     }
 
-    /// Column `j`: its rows from the diagonal to the last of the supernode's own, and those below.
+    /// Column `j`: its own rows from the diagonal on, and the rows below.
     #[inline(always)]
     fn column(&self, j: usize) -> (&'a [f64], &'a [f64]) {
         let height = self.width + self.rows.len();
@@ -39,7 +41,8 @@ impl<'a> Panel<'a> {
         (&column[j..self.width], &column[self.width..])
     }
 
-    /// L x = b in this supernode's rows, and b less what x makes in those below.
+    /// Solves L x = b in this supernode's rows and subtracts the contribution of x from the rows
+    /// below.
     #[inline(always)]
     pub fn forward(&self, work: &mut SplitColumns) {
         let SplitColumns { re, im, below_re, below_im } = work;
@@ -78,7 +81,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Lᵀ x = b in this supernode's rows.
+    /// Solves Lᵀ x = b in this supernode's rows.
     #[inline(always)]
     pub fn backward(&self, work: &mut SplitColumns) {
         let SplitColumns { re, im, below_re, below_im } = work;
@@ -103,7 +106,8 @@ impl<'a> Panel<'a> {
     }
 }
 
-/// Entry `j` of Lᵀ x = b, the later ones being known: `own` is the column from the diagonal on, `below` what the rows below take.
+/// Computes entry `j` of Lᵀ x = b when later entries are known: `own` is the column from the
+/// diagonal on, `below` the contribution of the rows below.
 #[inline(always)]
 fn finish(re: &mut [f64], im: &mut [f64], j: usize, own: &[f64], below: (f64, f64)) {
     let [inside] = products([&own[1..]], &re[j + 1..], &im[j + 1..]);
@@ -126,7 +130,7 @@ fn add_multiples<const K: usize>(x: &mut [f64], y: &mut [f64], a: [f64; K], b: [
     }
 }
 
-/// (l_k·x, l_k·y), each summed in four strands.
+/// (l_k·x, l_k·y), each accumulated in four partial sums.
 #[inline(always)]
 fn products<const K: usize>(l: [&[f64]; K], x: &[f64], y: &[f64]) -> [(f64, f64); K] {
     const STRANDS: usize = 4;

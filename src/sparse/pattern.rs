@@ -1,14 +1,14 @@
-/// Small sets of vertices, all of one size: the vertices that the pieces of an energy see.
+/// Sets of vertices, all of the same small size: the vertices of the pieces of an energy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stencils {
     /// Vertices per piece.
     pub arity: usize,
-    /// The vertices of all pieces, one behind the other.
+    /// The vertices of all pieces, concatenated.
     pub vertices: Vec<u32>,
 }
 
 impl Stencils {
-    /// Pieces of `N` vertices each.
+    /// Makes the stencils of pieces with `N` vertices each.
     pub fn new<const N: usize>(pieces: &[[u32; N]]) -> Self {
         Stencils { arity: N, vertices: pieces.as_flattened().to_vec() }
     }
@@ -32,7 +32,7 @@ impl Stencils {
 /// The positions of the entries of a sparse lower triangle, column by column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Columns {
-    /// Where each column begins in `rows` (`m + 1`).
+    /// The first entry of each column in `rows`, and the total number (`m + 1`).
     pub offsets: Vec<u32>,
     /// Row indices, ascending in each column, the diagonal first.
     pub rows: Vec<u32>,
@@ -49,7 +49,7 @@ impl Columns {
         self.offsets[..self.size()].iter().map(|&first| values[first as usize])
     }
 
-    /// M x for the symmetric matrix M of which `values` are the lower triangle.
+    /// Returns M x for the symmetric matrix M whose lower triangle has these values.
     pub fn multiply(&self, values: &[f64], x: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; x.len()];
         for column in 0..self.size() {
@@ -64,29 +64,29 @@ impl Columns {
         product
     }
 
-    /// The entries of a column, as positions in `rows`.
+    /// The range of a column's entries in `rows`.
     pub fn entries(&self, column: usize) -> std::ops::Range<usize> {
         self.offsets[column] as usize..self.offsets[column + 1] as usize
     }
 }
 
-/// The lower triangle of a symmetric matrix that couples the vertices of each piece, and where each entry of a piece's
-/// block goes: made once, after which values are filled in without search.
+/// The lower triangle of a symmetric matrix that couples the vertices of each piece, and the entry
+/// of each pair of vertices of a piece. Once it is made, values are assembled without search.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// The entries, one per pair of coupled vertices.
+    /// The entries, one for each pair of coupled vertices.
     pub columns: Columns,
-    /// For each list of stencils, each of its pieces and each pair i ≥ j of its vertices (row by row: (0,0), (1,0),
-    /// (1,1), (2,0) …) the entry, or [`Pattern::NONE`].
+    /// For each list of stencils, each piece and each pair i ≥ j of its vertices (row by row:
+    /// (0,0), (1,0), (1,1), (2,0) …) the entry, or [`Pattern::NONE`].
     slots: Vec<Vec<u32>>,
 }
 
 impl Pattern {
-    /// A vertex that is no unknown, a pair that has no entry.
+    /// Marks vertices that are not unknowns and pairs without an entry.
     pub const NONE: u32 = u32::MAX;
 
-    /// The pattern of `stencils` over `size` unknowns; `unknown[v]` is that of vertex v, or [`Pattern::NONE`]. Time and
-    /// memory are linear in the number of pairs.
+    /// Makes the pattern of `stencils` over `size` unknowns; `unknown[v]` is the unknown of vertex
+    /// v or [`Pattern::NONE`]. Time and memory are linear in the number of pairs.
     pub fn new(stencils: &[&Stencils], unknown: &[u32], size: usize) -> Self {
         let around = Around::new(stencils, unknown, size);
         let mut columns = Columns { offsets: Vec::with_capacity(size + 1), rows: Vec::with_capacity(6 * size) };
@@ -128,7 +128,7 @@ impl Pattern {
         self.columns.size()
     }
 
-    /// The entries alone, once values have been filled in.
+    /// Returns the entries without the slots, which are needed only for assembly.
     pub fn into_columns(self) -> Columns {
         self.columns
     }
@@ -140,7 +140,7 @@ impl Pattern {
     }
 }
 
-/// Pairs i ≥ j of `0 .. n`, row by row.
+/// Iterates over the pairs i ≥ j of `0 .. n`, row by row.
 pub(crate) fn pairs_of(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(|i| (0..=i).map(move |j| (i, j)))
 }
@@ -149,7 +149,7 @@ pub(crate) fn pairs_of(n: usize) -> impl Iterator<Item = (usize, usize)> {
 struct Around {
     offsets: Vec<u32>,
     pieces: Vec<u32>,
-    /// Where each list begins in the numbering of all pieces.
+    /// The first index of each list in the numbering of all pieces.
     first: Vec<u32>,
 }
 
@@ -183,7 +183,7 @@ impl Around {
         Around { offsets, pieces, first }
     }
 
-    /// (list, piece) of every piece around unknown `u`.
+    /// Iterates over (list, piece) for every piece around unknown `u`.
     fn pieces(&self, u: u32) -> impl Iterator<Item = (usize, usize)> {
         let around = self.offsets[u as usize] as usize..self.offsets[u as usize + 1] as usize;
         self.pieces[around].iter().map(|&piece| {

@@ -1,5 +1,5 @@
-//! A Cholesky factor that is solved with again and again for right-hand sides on few rows, of which few entries of the
-//! solution are wanted: the *ports*.
+//! A Cholesky factor for repeated solves whose right-hand sides and required solution entries are
+//! restricted to few unknowns, the *ports*.
 
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
@@ -11,14 +11,14 @@ use pulp::Arch;
 use super::panel::Panel;
 use super::{Analysis, Breakdown, Columns, Order};
 
-/// `P M Pᵀ = L Lᵀ`, real, by supernodes. A solve from ports to ports touches only the columns that are ancestors of ports in
-/// the elimination tree.
+/// The real factorisation `P M Pᵀ = L Lᵀ` by supernodes. A solve from ports to ports involves only
+/// the columns that are ancestors of ports in the elimination tree.
 pub struct PrunedCholesky {
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,
     /// The unknowns that are ports.
     ports: Vec<u32>,
-    /// Supernodes from which none of the ports' is cut off: those of the ports and all their ancestors, ascending.
+    /// The supernodes of the ports and all their ancestors, ascending.
     closure: Vec<u32>,
 }
 
@@ -27,7 +27,7 @@ pub struct PrunedCholesky {
 pub struct SplitColumns {
     pub(super) re: Vec<f64>,
     pub(super) im: Vec<f64>,
-    /// Real parts of the rows below a supernode, as many as the largest supernode has.
+    /// Real parts of the rows below a supernode; as long as the largest supernode requires.
     pub(super) below_re: Vec<f64>,
     pub(super) below_im: Vec<f64>,
 }
@@ -36,7 +36,7 @@ impl PrunedCholesky {
     /// Factorises the matrix with these values on the pattern.
     ///
     /// # Errors
-    /// A pivot that is not positive; lack of memory or of indices.
+    /// A pivot that is not positive; insufficient memory or indices.
     pub fn new(columns: &Columns, order: Order, values: &[f64], ports: Vec<u32>) -> Result<Self, Breakdown> {
         let by_supernodes = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -63,7 +63,7 @@ impl PrunedCholesky {
         }
     }
 
-    /// Values of the factor.
+    /// Number of values of the factor.
     pub fn len(&self) -> usize {
         self.values.len()
     }
@@ -73,14 +73,15 @@ impl PrunedCholesky {
         self.values.is_empty()
     }
 
-    /// Values of the factor that a solve from ports to ports reads.
+    /// Number of values of the factor that a solve from ports to ports reads.
     pub fn pruned_len(&self) -> usize {
         let Some(nodes) = self.nodes() else { return 0 };
         let at = nodes.col_ptr_for_val();
         self.closure.iter().map(|&s| (at[s as usize + 1] - at[s as usize]) as usize).sum()
     }
 
-    /// The entries at the ports of the solution with the right-hand side that is `y` at the ports, 0 elsewhere; in place.
+    /// Solves in place for the entries at the ports, with the right-hand side `y` at the ports and
+    /// 0 elsewhere.
     pub fn solve_at_ports(&self, y: &mut [Complex64], work: &mut SplitColumns) {
         self.put(self.ports.iter().copied().zip(y.iter().copied()), work);
         self.forward(self.closure.iter().copied(), work);
@@ -89,7 +90,8 @@ impl PrunedCholesky {
         self.clear(self.closure.iter().copied(), work);
     }
 
-    /// The entries at the ports of the solution with the right-hand side that has these entries, 0 elsewhere.
+    /// Solves for the entries at the ports, with a right-hand side that has these entries and is 0
+    /// elsewhere.
     pub fn solve_to_ports(
         &self,
         right: impl Iterator<Item = (u32, Complex64)> + Clone,
@@ -105,14 +107,14 @@ impl PrunedCholesky {
         y
     }
 
-    /// The solution (one entry per row) with the right-hand side that is `y` at the ports, 0 elsewhere.
+    /// Solves for all entries, with the right-hand side `y` at the ports and 0 elsewhere.
     pub fn solve_from_ports(&self, y: &[Complex64], work: &mut SplitColumns) -> Vec<Complex64> {
         self.put(self.ports.iter().copied().zip(y.iter().copied()), work);
         self.forward(self.closure.iter().copied(), work);
         self.whole(work)
     }
 
-    /// Goes backward through all columns and reads everything.
+    /// Substitutes backward through all columns and returns the whole solution.
     fn whole(&self, work: &mut SplitColumns) -> Vec<Complex64> {
         self.backward((0..self.node_count()).rev(), work);
         let solution = (0..self.symbolic.nrows() as u32).map(|u| self.at(u));
@@ -122,7 +124,7 @@ impl PrunedCholesky {
         solution
     }
 
-    /// The place of unknown `u` in the order of elimination.
+    /// The position of unknown `u` in the elimination order.
     fn at(&self, u: u32) -> usize {
         self.symbolic.perm().map_or(u, |p| p.arrays().1[u as usize]) as usize
     }
@@ -138,7 +140,7 @@ impl PrunedCholesky {
         self.nodes().map_or(0, |nodes| nodes.n_supernodes() as u32)
     }
 
-    /// The supernodes of these unknowns and all their ancestors, ascending.
+    /// Returns the supernodes of these unknowns and all their ancestors, ascending.
     fn closure_of(&self, unknowns: &[u32]) -> Vec<u32> {
         let Some(nodes) = self.nodes() else { return Vec::new() };
         let begin = nodes.supernode_begin();
@@ -148,7 +150,7 @@ impl PrunedCholesky {
             marked[node_of(self.at(u))] = true;
         }
         for s in 0..marked.len() {
-            // The parent holds the first row below the supernode's own.
+            // The parent contains the first row below the supernode's own rows.
             if let (true, Some(&row)) = (marked[s], nodes.supernode(s).pattern().first()) {
                 marked[node_of(row as usize)] = true;
             }
@@ -180,11 +182,11 @@ impl PrunedCholesky {
         }
     }
 
-    /// L x = b over these supernodes, ascending. Rows of other supernodes may be left with rubbish only if no supernode in
-    /// the list has them, which a closure excludes.
+    /// Solves L x = b over these supernodes, ascending. The list must be closed under ancestors;
+    /// then the values left in rows of other supernodes are never read.
     fn forward(&self, supernodes: impl Iterator<Item = u32>, work: &mut SplitColumns) {
         let Some(nodes) = self.nodes() else { return };
-        // In the widest vectors that the processor has.
+        // Uses the widest vectors of the processor.
         Arch::new().dispatch(|| {
             for s in supernodes {
                 Panel::new(nodes, &self.values, s as usize).forward(work);
@@ -192,7 +194,7 @@ impl PrunedCholesky {
         });
     }
 
-    /// Lᵀ x = b over these supernodes, descending; x must be known at all rows below theirs.
+    /// Solves Lᵀ x = b over these supernodes, descending; x must be known at all rows below them.
     fn backward(&self, supernodes: impl Iterator<Item = u32>, work: &mut SplitColumns) {
         let Some(nodes) = self.nodes() else { return };
         Arch::new().dispatch(|| {

@@ -1,36 +1,38 @@
-//! The fewest vertices that separate two sides.
+//! Minimum vertex separators of two sides.
 
 use std::collections::HashMap;
 
 use super::dissection::Piece;
 
 const NONE: u32 = u32::MAX;
-/// In the place of a piece: where paths begin and end.
+/// Stands for a piece where paths begin and end.
 const OUTSIDE: u32 = u32::MAX - 1;
 
-/// A band of pieces between two sides, of which some vertices are held to one side or the other.
+/// A band of pieces between two sides, some of whose vertices are assigned to a side.
 ///
-/// As many paths as can be, from the low side to the high one through pieces that share vertices, no two with a vertex in
-/// common; then as few vertices, one on each path, cut all (Menger). The paths are found by Dinic's method of
-/// shortest augmentations. Nodes of the network: `2v` and `2v + 1`, where paths enter and leave vertex v, at most one; then
-/// the pieces, with room for any number.
+/// By Menger's theorem the smallest number of vertices that separate the sides is the largest
+/// number of vertex-disjoint paths from the low to the high side through pieces that share
+/// vertices. The paths are found by Dinic's algorithm. The nodes of the network are `2v` and `2v +
+/// 1`, at which paths enter and leave vertex v (capacity 1), followed by the pieces (unlimited
+/// capacity).
 pub(super) struct Band {
     /// The vertices of each piece, numbered within the band, or [`NONE`].
     pieces: Vec<[u32; 4]>,
-    /// The names of the vertices outside.
+    /// The vertices' numbers outside of the band.
     names: Vec<u32>,
     offsets: Vec<u32>,
     around: Vec<u32>,
     low: Vec<bool>,
     high: Vec<bool>,
-    /// The piece from which a path enters each vertex, and to which it leaves: [`NONE`] without a path.
+    /// The piece from which a path enters each vertex and the piece to which it leaves; [`NONE`]
+    /// without a path.
     from: Vec<u32>,
     to: Vec<u32>,
     level: Vec<u32>,
 }
 
 impl Band {
-    /// The band of these pieces, of whose vertices those that are `free` count.
+    /// Makes the band of these pieces; only `free` vertices count.
     pub fn new(pieces: &[Piece], free: impl Fn(u32) -> bool) -> Self {
         let mut number = HashMap::with_capacity(pieces.len());
         let mut names = Vec::with_capacity(pieces.len());
@@ -68,17 +70,18 @@ impl Band {
         Band { pieces, names, offsets, around, low, high, from, to, level }
     }
 
-    /// Holds vertices to the low side.
+    /// Assigns vertices to the low side.
     pub fn hold_low(&mut self, held: impl Fn(u32) -> bool) {
         self.low = self.names.iter().map(|&v| held(v)).collect();
     }
 
-    /// Holds vertices to the high side.
+    /// Assigns vertices to the high side.
     pub fn hold_high(&mut self, held: impl Fn(u32) -> bool) {
         self.high = self.names.iter().map(|&v| held(v)).collect();
     }
 
-    /// Which pieces are to be on the low side for the fewest vertices to be on both.
+    /// Returns for each piece whether it is on the low side in a division with the fewest vertices
+    /// on both sides.
     pub fn divide(mut self) -> Vec<bool> {
         while self.reach() {
             let mut next = vec![0; self.level.len()];
@@ -93,7 +96,8 @@ impl Band {
         self.level[2 * self.names.len()..].iter().map(|level| *level != NONE).collect()
     }
 
-    /// Where one can go on from a node: its `k`-th neighbour, or `None` where that way is closed; `Err` after the last.
+    /// Returns the `k`-th neighbour of a node in the residual network, `None` if that edge is
+    /// saturated, `Err` after the last one.
     fn neighbour(&self, node: u32, k: u32) -> Result<Option<u32>, ()> {
         let first_piece = 2 * self.names.len() as u32;
         if node >= first_piece {
@@ -102,7 +106,7 @@ impl Band {
             return Ok(match (v, k < 4) {
                 (NONE, _) => None,
                 (v, true) => Some(2 * v),
-                // Back along a path that comes here from v.
+                // Back along a path that enters here from v.
                 (v, false) => (self.to[v as usize] == p).then_some(2 * v + 1),
             });
         }
@@ -110,7 +114,7 @@ impl Band {
         let has_path = self.from[v] != NONE;
         match (node % 2, k) {
             (0, 0) if !has_path => Ok(Some(node + 1)),
-            // Back along the path to where it comes from.
+            // Back along the path to the piece from which it comes.
             (0, 0) => Ok((self.from[v] != OUTSIDE).then(|| first_piece + self.from[v])),
             (0, _) => Err(()),
             (_, 0) => Ok(has_path.then_some(node - 1)),
@@ -121,12 +125,13 @@ impl Band {
         }
     }
 
-    /// Whether `node` is where a path may end.
+    /// Whether a path can end at `node`.
     fn is_end(&self, node: u32) -> bool {
         node < 2 * self.names.len() as u32 && node % 2 == 1 && self.high[node as usize / 2]
     }
 
-    /// Levels of the nodes from the low side; whether the high side is reached.
+    /// Computes the levels of the nodes from the low side; returns whether the high side is
+    /// reached.
     fn reach(&mut self) -> bool {
         self.level.fill(NONE);
         let mut queue: Vec<u32> =
@@ -151,7 +156,8 @@ impl Band {
         last != NONE
     }
 
-    /// A path from `start` to the high side, each node one level above the last; `next` are the ways not tried yet.
+    /// Finds a path from `start` to the high side that ascends one level per step; `next` are the
+    /// first neighbours not yet tried.
     fn path(&mut self, start: u32, next: &mut [u32]) -> Option<Vec<u32>> {
         let mut path = Vec::from([start]);
         while let Some(&node) = path.last() {
@@ -173,21 +179,21 @@ impl Band {
         None
     }
 
-    /// Adds a path, whose parts that run back along others replace those.
+    /// Adds a path; where it runs back along other paths, these are rerouted.
     fn take(&mut self, path: &[u32]) {
         let first_piece = 2 * self.names.len() as u32;
         let piece = |node: u32| node.checked_sub(first_piece);
         for (i, &node) in path.iter().enumerate().filter(|(_, node)| **node < first_piece) {
-            // There is room for one path: closed for the others of this round.
+            // The capacity is 1: the node is closed for the other paths of this round.
             self.level[node as usize] = NONE;
             let v = node as usize / 2;
             let before = if i == 0 { Some(OUTSIDE) } else { piece(path[i - 1]) };
             let after = path.get(i + 1).map_or(Some(OUTSIDE), |&node| piece(node));
             match (node % 2 == 0, before, after) {
-                // From a piece to within: from here on the path comes from there.
+                // From a piece into the vertex: the path now enters from that piece.
                 (true, Some(before), _) => self.from[v] = before,
                 (false, _, Some(after)) => self.to[v] = after,
-                // Back through the vertex: none is left.
+                // Back through the vertex: no path is left.
                 (true, None, _) => self.from[v] = NONE,
                 (false, _, None) => self.to[v] = NONE,
             }
@@ -199,7 +205,7 @@ impl Band {
 mod tests {
     use super::*;
 
-    /// Numbers below `bound`, from a linear congruence.
+    /// Pseudo-random numbers below `bound` (linear congruential generator).
     struct Numbers(u64);
 
     impl Numbers {
@@ -209,7 +215,7 @@ mod tests {
         }
     }
 
-    /// Vertices on both sides.
+    /// Number of vertices on both sides.
     fn cut(pieces: &[[u32; 4]], held: [&[bool]; 2], is_low: impl Fn(usize) -> bool) -> usize {
         let mut sides = held.map(<[bool]>::to_vec);
         for (p, piece) in pieces.iter().enumerate() {

@@ -5,23 +5,24 @@ use faer::sparse::linalg::cholesky::{CholeskySymbolicParams, SymbolicCholeskyRaw
 
 use super::{Analysis, Breakdown, Columns, Order};
 
-/// Supernodes in the order of elimination, and where their values are.
+/// The supernodes in elimination order and the positions of their values.
 ///
-/// The values of a supernode are a dense panel, column by column: its own rows, then those below.
+/// The values of a supernode form a dense panel in column-major order: its own rows, then the rows
+/// below.
 #[derive(Debug)]
 pub(super) struct Supernodes {
-    /// Where the columns of each supernode begin, and the end of the last.
+    /// The first column of each supernode, and the end of the last.
     begin: Vec<u32>,
-    /// Where the rows below each supernode begin in `rows`.
+    /// The first of the rows below each supernode in `rows`.
     offsets: Vec<usize>,
     rows: Vec<u32>,
-    /// Where the values of each supernode begin.
+    /// The first value of each supernode.
     values: Vec<usize>,
 }
 
 impl Supernodes {
-    /// Analyses a pattern whose unknowns are eliminated as they are numbered, all but the last `border`. These are one dense
-    /// supernode, the last one, where there are any.
+    /// Analyses a pattern whose unknowns are eliminated in the order of their numbers, except for
+    /// the last `border`. If there are any, these form the last supernode, which is dense.
     pub fn new(columns: &Columns, border: usize) -> Result<Self, Breakdown> {
         let by_supernodes = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -36,7 +37,7 @@ impl Supernodes {
             if start >= end {
                 break;
             }
-            // A supernode that reaches into the border has its rows there below.
+            // If a supernode extends into the border, its rows there become rows below.
             supernodes.rows.extend(end.min(stop)..stop);
             supernodes.rows.extend(nodes.supernode(s).pattern());
             supernodes.close(stop.min(end));
@@ -47,7 +48,7 @@ impl Supernodes {
         Ok(supernodes)
     }
 
-    /// Ends the supernode whose rows are the last ones.
+    /// Closes the supernode to which the last rows belong.
     fn close(&mut self, end: u32) {
         let last = self.begin.len() - 1;
         let width = (end - self.begin[last]) as usize;
@@ -67,27 +68,27 @@ impl Supernodes {
         self.begin[self.len()] as usize
     }
 
-    /// Number of values of all panels.
+    /// Total number of values of all panels.
     pub fn value_count(&self) -> usize {
         self.values[self.len()]
     }
 
-    /// The own columns of a supernode.
+    /// The columns of a supernode.
     pub fn own(&self, s: usize) -> std::ops::Range<usize> {
         self.begin[s] as usize..self.begin[s + 1] as usize
     }
 
-    /// The rows below a supernode's own.
+    /// The rows below a supernode's own rows.
     pub fn below(&self, s: usize) -> &[u32] {
         &self.rows[self.offsets[s]..self.offsets[s + 1]]
     }
 
-    /// The places of a supernode's values.
+    /// The range of a supernode's values.
     pub fn panel(&self, s: usize) -> std::ops::Range<usize> {
         self.values[s]..self.values[s + 1]
     }
 
-    /// The rows of a supernode's panel.
+    /// Number of rows of a supernode's panel.
     pub fn height(&self, s: usize) -> usize {
         self.own(s).len() + self.below(s).len()
     }
@@ -97,13 +98,13 @@ impl Supernodes {
         self.begin.partition_point(|&begin| begin as usize <= column) - 1
     }
 
-    /// The supernodes of these columns and all their ancestors, ascending: a solve whose right-hand side is 0 elsewhere touches
-    /// no others on its way forward.
+    /// Returns the supernodes of these columns and all their ancestors, ascending. Forward
+    /// substitution with a right-hand side that is 0 elsewhere involves no others.
     pub fn closure(&self, columns: impl Iterator<Item = u32>) -> Vec<u32> {
         let mut marked = vec![false; self.len()];
         columns.for_each(|column| marked[self.of_column(column as usize)] = true);
         for s in 0..self.len() {
-            // The parent holds the first row below the supernode's own.
+            // The parent contains the first row below the supernode's own rows.
             if let (true, Some(&row)) = (marked[s], self.below(s).first()) {
                 marked[self.of_column(row as usize)] = true;
             }

@@ -1,4 +1,5 @@
-//! `M = C Cᵀ` of real or complex *symmetric* matrices (no conjugate), left-looking by supernodes.
+//! The factorisation `M = C Cᵀ` of real or complex *symmetric* matrices (no conjugate),
+//! left-looking by supernodes.
 
 use faer::linalg::matmul::matmul_with_conj;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
@@ -18,11 +19,11 @@ const SMALL: usize = 16;
 
 /// A factor C of a symmetric matrix, `M = C Cᵀ`, real or complex, or of its leading part.
 ///
-/// There is no pivoting. Where Re M is positive definite every Schur complement has a positive definite real part too, and growth is
-/// bounded; the pivots are the principal square roots.
+/// There is no pivoting. If Re M is positive definite, so is the real part of every Schur
+/// complement, and growth is bounded; the diagonal entries of C are principal square roots.
 ///
-/// With a *border* the last unknowns are not eliminated. M is then `[[I, ·], [B, D]]`, what is factorised is I, and the Schur complement
-/// `T = D − B I⁻¹ Bᵀ` is there as a dense matrix.
+/// With a *border* the last unknowns are not eliminated: M is `[[I, ·], [B, D]]`, I is factorised,
+/// and the Schur complement `T = D − B I⁻¹ Bᵀ` is stored as a dense matrix.
 #[derive(Debug)]
 pub struct SymmetricFactor<T> {
     nodes: Supernodes,
@@ -31,11 +32,12 @@ pub struct SymmetricFactor<T> {
 }
 
 impl<T: Entry> SymmetricFactor<T> {
-    /// Factorises the matrix whose lower triangle has these values, but for the last `border` unknowns. The others are eliminated
-    /// as they are numbered.
+    /// Factorises the matrix whose lower triangle has these values, except for the last `border`
+    /// unknowns. The others are eliminated in the order of their numbers.
     ///
     /// # Errors
-    /// A pivot that is 0 or not finite (real matrices: whose square is negative); lack of memory or of indices.
+    /// A pivot that is 0 or not finite (for real matrices: negative before the root); insufficient
+    /// memory or indices.
     pub fn new(columns: &Columns, values: &[T], border: usize) -> Result<Self, Breakdown> {
         let nodes = Supernodes::new(columns, border)?;
         let mut values = numeric(&nodes, columns, values, border)?;
@@ -45,12 +47,12 @@ impl<T: Entry> SymmetricFactor<T> {
         Ok(SymmetricFactor { nodes, values, border })
     }
 
-    /// Number of rows that are eliminated.
+    /// Number of eliminated rows.
     pub fn size(&self) -> usize {
         self.nodes.size() - self.border
     }
 
-    /// Values of the factor and of T.
+    /// Number of values of the factor and of T.
     pub fn len(&self) -> usize {
         self.values.len()
     }
@@ -60,7 +62,7 @@ impl<T: Entry> SymmetricFactor<T> {
         self.values.is_empty()
     }
 
-    /// Writes T b, b being the values of the border.
+    /// Computes T b, where b are the values of the border.
     pub fn schur_product(&self, b: &[Complex64], product: &mut [Complex64], work: &mut SolveWork) {
         if self.border == 0 {
             return;
@@ -82,17 +84,17 @@ impl<T: Entry> SymmetricFactor<T> {
         });
     }
 
-    /// Supernodes of elimination: all but the border.
+    /// Number of supernodes without the border.
     fn count(&self) -> u32 {
         (self.nodes.len() - usize::from(self.border > 0)) as u32
     }
 
-    /// The supernodes that a solve with a right-hand side on these rows reaches, ascending.
+    /// Returns the supernodes involved in a solve with a right-hand side on these rows, ascending.
     pub fn closure(&self, rows: impl Iterator<Item = u32>) -> Vec<u32> {
         self.nodes.closure(rows)
     }
 
-    /// Memory for solves.
+    /// Returns working memory for solves.
     pub fn work(&self) -> SolveWork {
         let height = T::PARTS * (0..self.nodes.len()).map(|s| self.nodes.height(s)).max().unwrap_or(0);
         SolveWork { x: vec![Complex64::ZERO; self.nodes.size()], first: vec![0.0; height], second: vec![0.0; height] }
@@ -109,8 +111,9 @@ impl<T: Entry> SymmetricFactor<T> {
         work.x[..size].fill(Complex64::ZERO);
     }
 
-    /// Solves without a border for a right-hand side on rows whose [closure](SymmetricFactor::closure) is given: `put` adds it to
-    /// a column of zeros, `take` reads the solution, which is right on the rows of the closure.
+    /// Solves without a border for a right-hand side on rows with the given
+    /// [closure](SymmetricFactor::closure). `put` adds it to a zero column; `take` reads the
+    /// solution, which is valid on the rows of the closure.
     pub fn solve_within(
         &self,
         closure: &[u32],
@@ -125,7 +128,7 @@ impl<T: Entry> SymmetricFactor<T> {
         closure.iter().for_each(|&s| work.x[self.nodes.own(s as usize)].fill(Complex64::ZERO));
     }
 
-    /// Writes `−I⁻¹ Bᵀ b`, b being the values of the border.
+    /// Computes `−I⁻¹ Bᵀ b`, where b are the values of the border.
     pub fn extend(&self, b: &[Complex64], y: &mut [Complex64], work: &mut SolveWork) {
         let size = self.size();
         work.x[size..].copy_from_slice(b);
@@ -139,7 +142,7 @@ impl<T: Entry> SymmetricFactor<T> {
     }
 
     fn forward(&self, supernodes: impl Iterator<Item = u32>, work: &mut SolveWork) {
-        // In the widest vectors that the processor has.
+        // Uses the widest vectors of the processor.
         Arch::new().dispatch(|| supernodes.for_each(|s| self.panel(s).forward(work)));
     }
 
@@ -154,7 +157,7 @@ fn panel<'a, T>(nodes: &'a Supernodes, values: &'a [T], s: usize) -> SymmetricPa
     SymmetricPanel { start: own.start, width: own.len(), below: nodes.below(s), values: &values[nodes.panel(s)] }
 }
 
-/// Copies the lower triangle of a symmetric matrix into the upper one.
+/// Copies the lower triangle of a symmetric matrix to the upper triangle.
 fn complete<T: Copy>(values: &mut [T], n: usize) {
     for column in 0..n {
         for row in column + 1..n {
@@ -165,8 +168,11 @@ fn complete<T: Copy>(values: &mut [T], n: usize) {
 
 const NONE: u32 = u32::MAX;
 
-/// The values of C, supernode by supernode. Each gathers the products of the earlier ones that have rows in it, which are kept
-/// in lists by the supernode that needs them next. The last supernode is left as it is then, where it is the border.
+/// Computes the values of C, supernode by supernode.
+///
+/// Each supernode collects the products of the earlier ones that have rows in it; linked lists hold
+/// these by the supernode that needs them next. The last supernode is not factorised if it is the
+/// border.
 fn numeric<T: Entry>(nodes: &Supernodes, columns: &Columns, entries: &[T], border: usize) -> Result<Vec<T>, Breakdown> {
     let count = nodes.len();
     let mut values = Vec::new();
@@ -175,7 +181,8 @@ fn numeric<T: Entry>(nodes: &Supernodes, columns: &Columns, entries: &[T], borde
     let mut node_of = vec![0u32; columns.size()];
     (0..count).for_each(|s| node_of[nodes.own(s)].fill(s as u32));
     let mut local = vec![0u32; columns.size()];
-    // The earlier supernodes that contribute to each one next, as linked lists, and the first row that they contribute to.
+    // Linked lists of the earlier supernodes by the supernode to which they contribute next, and
+    // their first row in it.
     let (mut head, mut next, mut from) = (vec![NONE; count], vec![NONE; count], vec![0u32; count]);
     let mut product: Vec<T> = Vec::new();
     for s in 0..count {
@@ -231,7 +238,8 @@ fn numeric<T: Entry>(nodes: &Supernodes, columns: &Columns, entries: &[T], borde
     Ok(values)
 }
 
-/// The lower part of `D Eᵀ`: D are the rows `first ..` below an earlier supernode, E those in `first .. last`.
+/// Computes the lower part of `D Eᵀ`, where D are the rows `first ..` below an earlier supernode
+/// and E those in `first .. last`.
 fn multiply<T: Entry>(earlier: &SymmetricPanel<T>, first: usize, last: usize, product: &mut Vec<T>) {
     let (rows, columns) = (earlier.below.len() - first, last - first);
     product.clear();
@@ -309,7 +317,7 @@ mod tests {
     use super::*;
     use crate::sparse::Lists;
 
-    /// Numbers in [−1, 1), from a linear congruence.
+    /// Pseudo-random numbers in [−1, 1) (linear congruential generator).
     struct Numbers(u64);
 
     impl Numbers {
@@ -319,7 +327,8 @@ mod tests {
         }
     }
 
-    /// A sparse symmetric matrix of n rows whose real part is positive definite, as a lower triangle and in full.
+    /// Makes a sparse symmetric matrix of n rows whose real part is positive definite, as a lower
+    /// triangle and in full.
     fn matrix<T: Entry>(n: usize, seed: u64, entry: impl Fn(f64, f64) -> T) -> (Columns, Vec<T>, Vec<Vec<T>>) {
         let mut numbers = Numbers(seed);
         let mut full = vec![vec![T::ZERO; n]; n];

@@ -1,24 +1,26 @@
-//! Triangular solves with one supernode of a symmetric factor. A solve reads each value of the factor once and takes as long as
-//! that: columns are taken together, so that little else is read beside them. Sums are in the order of the columns, whatever
-//! the width of the processor's vectors.
+//! Triangular solves with one supernode of a symmetric factor.
+//!
+//! A solve reads each value of the factor once, and this memory traffic determines its time;
+//! several columns are therefore processed together, so that little else is read. The order of
+//! summation does not depend on the vector width of the processor.
 
 use num_complex::Complex64;
 
 use super::entry::{Entry, STRANDS};
 
-/// Columns that are taken together on the way forward.
+/// Number of columns that are processed together in forward substitution.
 const FORWARD: usize = 4;
 
-/// Memory for solves: a column, and two arrays of real numbers as long as the highest panel.
+/// Working memory for solves: a column, and two real arrays as long as the highest panel.
 #[derive(Clone, Debug)]
 pub struct SolveWork {
-    /// One entry per row, 0 outside of solves.
+    /// One entry per row; 0 between solves.
     pub(super) x: Vec<Complex64>,
     pub(super) first: Vec<f64>,
     pub(super) second: Vec<f64>,
 }
 
-/// The columns of a supernode, dense, one behind the other: its own rows, then those below.
+/// The dense columns of a supernode, concatenated: its own rows, then the rows below.
 pub(super) struct SymmetricPanel<'a, T> {
     pub start: usize,
     pub width: usize,
@@ -38,7 +40,8 @@ impl<'a, T: Entry> SymmetricPanel<'a, T> {
         &self.values[j * height..(j + 1) * height]
     }
 
-    /// C x = b in this supernode's rows, and b less what x makes in those below.
+    /// Solves C x = b in this supernode's rows and subtracts the contribution of x from the rows
+    /// below.
     #[inline(always)]
     pub fn forward(&self, work: &mut SolveWork) {
         let SolveWork { x, first, second } = work;
@@ -61,7 +64,7 @@ impl<'a, T: Entry> SymmetricPanel<'a, T> {
         }
     }
 
-    /// The columns `j .. j + K` of the solve forward; x are the supernode's own rows.
+    /// Processes the columns `j .. j + K` in forward substitution; x are the supernode's own rows.
     #[inline(always)]
     fn forward_columns<const K: usize>(&self, j: usize, x: &mut [Complex64], by_re: &mut [f64], by_im: &mut [f64]) {
         let columns: [&[T]; K] = std::array::from_fn(|k| self.column(j + k));
@@ -88,7 +91,7 @@ impl<'a, T: Entry> SymmetricPanel<'a, T> {
         }
     }
 
-    /// Cᵀ x = b in this supernode's rows, x being known below.
+    /// Solves Cᵀ x = b in this supernode's rows, where x is known below.
     #[inline(always)]
     pub fn backward(&self, work: &mut SolveWork) {
         let SolveWork { x, first, second } = work;
@@ -117,7 +120,7 @@ impl<'a, T: Entry> SymmetricPanel<'a, T> {
     }
 }
 
-/// `Σ c_k x`, where x is [put](Entry::put) into the two arrays.
+/// `Σ c_k x`, where x is [stored](Entry::put) in the two arrays.
 #[inline(always)]
 pub(super) fn products<T: Entry, const K: usize>(columns: [&[T]; K], first: &[f64], second: &[f64]) -> [Complex64; K] {
     let n = first.len();
