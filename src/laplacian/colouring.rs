@@ -1,14 +1,15 @@
-//! Black and white vertices, and the quads seen from their black diagonals.
+//! Black and white vertices, and the quads in terms of their black diagonals.
 
 use num_complex::Complex64;
 
 use super::LaplacianError;
 use crate::quad_graph::QuadGraph;
 
-/// Which vertices are black.
+/// The division of the vertices into black and white ones.
 ///
-/// Every edge of a quad graph joins a black vertex and a white one. Black are the vertices of a triangle mesh; on a quad
-/// mesh, the class of the first boundary vertex (of vertex 0, where there is no boundary).
+/// Every edge of a quad graph joins a black vertex and a white one. The vertices of a triangle mesh
+/// are black; on a quad mesh, the class of the first boundary vertex is (of vertex 0 if there is no
+/// boundary).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Colouring {
     is_black: Vec<bool>,
@@ -19,9 +20,9 @@ pub struct Colouring {
 pub struct BlackQuad {
     /// The ends i, j of the black diagonal.
     pub black: [u32; 2],
-    /// The white vertices g, f: f lies on the left of the diagonal from i to j.
+    /// The white vertices g, f; f lies on the left of the diagonal from i to j.
     pub white: [u32; 2],
-    /// ρ seen from the black diagonal.
+    /// ρ relative to the black diagonal.
     pub rho: Complex64,
 }
 
@@ -42,7 +43,7 @@ impl Colouring {
         Ok(Colouring { is_black: class.iter().map(|&k| k == class[first]).collect() })
     }
 
-    /// The same with white vertices for black ones.
+    /// Returns the colouring with black and white exchanged.
     #[must_use]
     pub fn exchanged(&self) -> Self {
         Colouring { is_black: self.is_black.iter().map(|black| !black).collect() }
@@ -53,8 +54,8 @@ impl Colouring {
         self.is_black[v as usize]
     }
 
-    /// Quad `q` of `graph`, from its black diagonal. Across a quad whose first vertex is white ρ is the inverse of the
-    /// quad's own.
+    /// Returns quad `q` of `graph` in terms of its black diagonal. If its first vertex is white, ρ
+    /// is the inverse of the quad's own.
     pub fn quad(&self, graph: &QuadGraph, q: usize) -> BlackQuad {
         let [v0, v1, v2, v3] = graph.quads[q];
         let rho = graph.rho[q];
@@ -64,7 +65,7 @@ impl Colouring {
         }
     }
 
-    /// All quads of `graph`, from their black diagonals.
+    /// Iterates over all quads of `graph` in terms of their black diagonals.
     pub fn quads(&self, graph: &QuadGraph) -> impl Iterator<Item = BlackQuad> + Clone {
         (0..graph.quads.len()).map(|q| self.quad(graph, q))
     }

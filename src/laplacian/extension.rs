@@ -1,4 +1,4 @@
-//! From boundary values to the whole map.
+//! The extension of boundary values to the whole map.
 
 use num_complex::Complex64;
 
@@ -7,8 +7,10 @@ use crate::quad_graph::QuadGraph;
 use crate::sparse::Lists;
 
 impl ConformalLaplacian {
-    /// The map (`nv`) with black boundary values b (n) and H = 0: inner black values are `−L_II⁻¹ L_IB b`, white ones follow
-    /// by adding up (2), with mean w_0 over the white vertices of the first boundary loop.
+    /// Returns the map (`nv`) with black boundary values b (n) and H = 0.
+    ///
+    /// Inner black values are `−L_II⁻¹ L_IB b`. White values follow by summing (2) and have mean
+    /// w_0 over the first boundary loop.
     pub fn extend(&self, graph: &QuadGraph, b: &[Complex64], w_0: Complex64, work: &mut Work) -> Vec<Complex64> {
         let mut z = self.extend_black(graph, b, work);
         let Some(first) = self.loops.ranges.first() else { return z };
@@ -19,7 +21,8 @@ impl ConformalLaplacian {
         z
     }
 
-    /// The black values (`nv`, 0 at white vertices) with `L z = 0` at inner vertices and black boundary values b (n).
+    /// Returns the black values (`nv`, 0 at white vertices) with `L z = 0` at inner vertices and
+    /// boundary values b (n).
     pub fn extend_black(&self, graph: &QuadGraph, b: &[Complex64], work: &mut Work) -> Vec<Complex64> {
         let mut z = vec![Complex64::ZERO; graph.vertices];
         let mut y = work.take();
@@ -35,7 +38,8 @@ impl ConformalLaplacian {
         z
     }
 
-    /// Writes the white values of z (`nv`) by adding up (2) from the white vertex `start`, whose value is kept, breadth first.
+    /// Computes the white values of z (`nv`) by summing (2), breadth first, from the white vertex
+    /// `start`, whose value is kept.
     pub fn add_up(&self, graph: &QuadGraph, start: u32, z: &mut [Complex64]) {
         self.walk_white(graph, start, |from, to, i_rho, [i, j]| {
             z[to as usize] = z[from as usize] + i_rho * (z[j as usize] - z[i as usize]);
@@ -49,8 +53,8 @@ impl ConformalLaplacian {
         white.for_each(|(_, z)| *z += step);
     }
 
-    /// Reaches the white vertices from `start`, breadth first: `visit(from, to, iρ, [i, j])` where
-    /// `z_to = z_from + iρ (z_j − z_i)`. Ends where it returns true.
+    /// Visits the white vertices breadth first from `start`: `visit(from, to, iρ, [i, j])`, where
+    /// `z_to = z_from + iρ (z_j − z_i)`. Stops when it returns true.
     fn walk_white(&self, graph: &QuadGraph, start: u32, mut visit: impl FnMut(u32, u32, Complex64, [u32; 2]) -> bool) {
         let quads = self.colouring.quads(graph).zip(0..);
         let around = Lists::new(graph.vertices, quads.flat_map(|(quad, q)| quad.white.map(|v| (v, q))));
@@ -76,8 +80,10 @@ impl ConformalLaplacian {
         }
     }
 
-    /// See [`ConformalLaplacian::shifts`]. A path of quads from the first loop to the other one gives the functional `c_B·z_B + c_I·z_I`;
-    /// on solutions of `L z = 0` it is `(c_B − L_BI L_II⁻¹ c_I)·b`, L being symmetric.
+    /// Computes [`ConformalLaplacian::shifts`].
+    ///
+    /// A path of quads from the first loop to another one gives the functional `c_B·z_B + c_I·z_I`.
+    /// On solutions of `L z = 0` it is `(c_B − L_BI L_II⁻¹ c_I)·b`, because L is symmetric.
     pub(super) fn shifts_between_loops(&self, graph: &QuadGraph) -> Vec<Vec<Complex64>> {
         let [first, others @ ..] = self.loops.ranges.as_slice() else { return Vec::new() };
         if others.is_empty() {
@@ -112,7 +118,8 @@ impl ConformalLaplacian {
         others.iter().map(shift).collect()
     }
 
-    /// The largest `|r| / (|z_f| + |z_g| + |ρ| (|z_j| + |z_i|))` over the quads, r the residual of (2).
+    /// Returns the largest `|r| / (|z_f| + |z_g| + |ρ| (|z_j| + |z_i|))` over the quads, where r is
+    /// the residual of (2).
     pub fn residual(&self, graph: &QuadGraph, z: &[Complex64]) -> f64 {
         self.colouring.quads(graph).fold(0.0, |worst, quad| {
             let [i, j] = quad.black.map(|v| z[v as usize]);

@@ -18,9 +18,9 @@ use crate::sparse::{Breakdown, Entry, SolveWork, SymmetricFactor};
 pub(super) enum Factor {
     /// There are no inner black vertices.
     Nothing,
-    /// Real, where every ρ is.
+    /// A real factor, if every ρ is real.
     Real(Box<Symmetric<f64>>),
-    /// C Cᵀ, where every Re ρ > 0: Re L is positive definite, so that no pivot comes near 0.
+    /// C Cᵀ, if every Re ρ > 0: Re L is then positive definite, and no pivot is close to 0.
     Complex(Box<Symmetric<Complex64>>),
     /// Sparse LU with partial pivoting, for any ρ.
     Lu(Box<Lu<usize, Complex64>>),
@@ -33,16 +33,16 @@ pub(super) struct Symmetric<T> {
     flux: Flux,
 }
 
-/// How products with T are made.
+/// The method for products with T.
 #[derive(Debug)]
 enum Flux {
-    /// T is there as a dense matrix.
+    /// T is stored as a dense matrix.
     Dense,
-    /// By a solve in the supernodes that the boundary reaches.
+    /// A solve in the supernodes that involve the boundary.
     Pruned(Vec<u32>),
 }
 
-/// Memory for solves.
+/// Working memory for solves.
 #[derive(Clone, Debug)]
 pub struct Work {
     solve: Option<SolveWork>,
@@ -50,7 +50,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// A column of zeros (m), to be given back.
+    /// Takes a column of zeros (m), which must be given back.
     pub(super) fn take(&mut self) -> Vec<Complex64> {
         let mut column = std::mem::take(&mut self.column);
         column.fill(Complex64::ZERO);
@@ -63,7 +63,7 @@ impl Work {
 }
 
 impl<T: Entry> Symmetric<T> {
-    /// Factorises L_II, whose triangle is that of all L where there is a border.
+    /// Factorises L_II; with a border, `triangle` is that of the whole L.
     fn new(triangle: &LowerTriangle, values: &[T], border: usize, rows: &BoundaryRows) -> Result<Self, Breakdown> {
         let factor = SymmetricFactor::new(&triangle.columns, values, border)?;
         let flux = match border {
@@ -85,12 +85,12 @@ impl<T: Entry> Symmetric<T> {
 }
 
 impl Factor {
-    /// Whether L_II has a symmetric factor if any.
+    /// Whether L_II has a symmetric factor, if it has any.
     pub fn is_symmetric(graph: &QuadGraph) -> bool {
         graph.rho.iter().all(|rho| rho.re > 0.0) || graph.is_orthogonal()
     }
 
-    /// Factorises L_II. With a border (the boundary) the triangle is that of all L.
+    /// Factorises L_II. With a border (the boundary) `triangle` is that of the whole L.
     pub fn new(
         graph: &QuadGraph,
         triangle: &LowerTriangle,
@@ -107,7 +107,7 @@ impl Factor {
             match Symmetric::new(triangle, &values, border, rows) {
                 Ok(factor) => return Ok(Factor::Real(Box::new(factor))),
                 Err(Breakdown::TooLarge) => return Err(broken(Breakdown::TooLarge)),
-                // Not positive definite, which negative ρ can bring about.
+                // Not positive definite, which is possible with negative ρ.
                 Err(_) => {}
             }
         } else if Factor::is_symmetric(graph) {
@@ -117,7 +117,7 @@ impl Factor {
         lu(triangle, unknowns).map_err(broken)
     }
 
-    /// Memory for solves of `size` unknowns.
+    /// Returns working memory for solves with `size` unknowns.
     pub fn work(&self, size: usize) -> Work {
         let solve = match self {
             Factor::Real(factor) => Some(factor.factor.work()),
@@ -140,7 +140,7 @@ impl Factor {
         }
     }
 
-    /// Writes `T b`.
+    /// Computes `T b`.
     pub fn flux(&self, rows: &BoundaryRows, b: &[Complex64], flux: &mut [Complex64], work: &mut Work) {
         match (self, &mut work.solve) {
             (Factor::Real(factor), Some(work)) => factor.flux(rows, b, flux, work),

@@ -6,19 +6,19 @@ use super::{ConformalLaplacian, Work};
 use crate::quad_graph::QuadGraph;
 use crate::sparse::Lists;
 
-/// The Green's function G of an inner black vertex: `L G = 1` there and 0 at the other inner black vertices, G = 0 on the
-/// boundary.
+/// The Green's function G of an inner black vertex: `L G = 1` there and 0 at the other inner black
+/// vertices, G = 0 on the boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Green {
-    /// The inner black vertex, as many black diagonals away from the boundary as any.
+    /// The inner black vertex, at the largest distance from the boundary in black diagonals.
     pub pole: u32,
     /// `−L_BI L_II⁻¹ e` (n), the flux through the black boundary vertices. Its sum is 1.
     pub flux: Vec<Complex64>,
 }
 
 impl ConformalLaplacian {
-    /// The Green's function of an inner black vertex far from the boundary; `None` where there is no such vertex, or
-    /// no boundary.
+    /// Returns the Green's function of an inner black vertex far from the boundary; `None` if there
+    /// is no such vertex or no boundary.
     pub fn green(&self, graph: &QuadGraph, work: &mut Work) -> Option<Green> {
         let pole = self.far_inside(graph)?;
         let mut y = work.take();
@@ -30,7 +30,7 @@ impl ConformalLaplacian {
         Some(Green { pole, flux })
     }
 
-    /// The last inner black vertex that a search reaches from the boundary, breadth first.
+    /// Returns the inner black vertex that a breadth-first search from the boundary reaches last.
     fn far_inside(&self, graph: &QuadGraph) -> Option<u32> {
         let quads = self.colouring.quads(graph).zip(0..);
         let around = Lists::new(graph.vertices, quads.flat_map(|(quad, q)| quad.black.map(|v| (v, q))));

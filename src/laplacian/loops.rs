@@ -1,4 +1,4 @@
-//! Boundary loops, black and white.
+//! The boundary loops, black and white.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::quad_graph::QuadGraph;
 /// The boundary vertices by colour, loop by loop.
 #[derive(Debug)]
 pub(super) struct Loops {
-    /// Boundary positions of each loop.
+    /// The boundary positions of each loop.
     pub ranges: Vec<Range<usize>>,
     pub black: Vec<u32>,
     /// The white vertex after each black one.

@@ -6,18 +6,19 @@ use super::Colouring;
 use crate::quad_graph::QuadGraph;
 use crate::sparse::{Columns, Lists, dissect};
 
-/// Numbers of the black vertices: first the inner ones in the order in which they are eliminated, then those on the boundary.
+/// The numbers of the black vertices: first the inner ones in elimination order, then those on the
+/// boundary.
 #[derive(Debug)]
 pub(super) struct Numbering {
     pub inner: Vec<u32>,
     /// The number of every vertex, or [`Numbering::NONE`].
     pub of_vertex: Vec<u32>,
-    /// The black vertex that is held where there is no boundary.
+    /// The black vertex that is pinned if there is no boundary.
     pub held: Option<u32>,
 }
 
 impl Numbering {
-    /// Marks white vertices, and the one that is held.
+    /// Marks white vertices and the pinned one.
     pub const NONE: u32 = u32::MAX;
 
     /// Numbers the black vertices that are not on the boundary by nested dissection.
@@ -38,17 +39,17 @@ impl Numbering {
         Numbering { inner, of_vertex, held }
     }
 
-    /// Whether a number is that of an inner vertex.
+    /// Whether a number belongs to an inner vertex.
     pub fn is_inner(&self, number: u32) -> bool {
         (number as usize) < self.inner.len()
     }
 
-    /// The number of vertex `v`, where it is an inner black one.
+    /// The number of vertex `v` if it is an inner black vertex.
     pub fn index(&self, v: u32) -> Option<usize> {
         Some(self.of_vertex[v as usize]).filter(|&k| self.is_inner(k)).map(|k| k as usize)
     }
 
-    /// The boundary position of vertex `v`, where it is a black boundary vertex.
+    /// The boundary position of vertex `v` if it is a black boundary vertex.
     pub fn position(&self, v: u32) -> Option<usize> {
         Some(self.of_vertex[v as usize])
             .filter(|&k| k != Self::NONE && !self.is_inner(k))
@@ -56,21 +57,23 @@ impl Numbering {
     }
 }
 
-/// The lower triangle of L_II, or of all L.
+/// The lower triangle of L_II or of the whole L.
 pub(super) struct LowerTriangle {
     pub columns: Columns,
     pub values: Vec<Complex64>,
 }
 
 impl LowerTriangle {
-    /// Assembles L on the first `size` numbers: every quad adds ρ to the diagonal at i and j, −ρ between them.
+    /// Assembles L on the first `size` numbers: every quad adds ρ to the diagonal at i and j and −ρ
+    /// between them.
     ///
-    /// Quads are sorted by the larger number of i and j, by counting. Taken in that order they fill the columns from top to bottom.
+    /// Quads are sorted by the larger number of i and j by counting; in that order they fill the
+    /// columns from top to bottom.
     pub fn new(graph: &QuadGraph, colouring: &Colouring, numbering: &Numbering, size: usize) -> Self {
         let number = |v: u32| Some(numbering.of_vertex[v as usize]).filter(|&k| (k as usize) < size);
         let coupled = |q: usize| {
             let [i, j] = colouring.quad(graph, q).black.map(number);
-            // An edge from a vertex to itself, on a closed surface, cancels.
+            // An edge from a vertex to itself, which is possible on a closed surface, cancels.
             Some((i?.min(j?), i?.max(j?))).filter(|(i, j)| i != j)
         };
         let rows = Lists::new(size, (0..graph.quads.len()).filter_map(|q| Some((coupled(q)?.1, q as u32))));
@@ -117,7 +120,7 @@ impl LowerTriangle {
         triangle
     }
 
-    /// Removes the places that columns do not use behind their last entries, at `end`.
+    /// Removes the unused space of columns, after their last entries at `end`.
     fn close_gaps(&mut self, end: &[u32]) {
         let Columns { offsets, rows } = &mut self.columns;
         let mut kept = 0;

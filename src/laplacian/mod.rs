@@ -1,15 +1,17 @@
-//! The conformal Laplacian: one complex symmetric matrix on the black vertices of a quad graph.
+//! The conformal Laplacian: a complex symmetric matrix on the black vertices of a quad graph.
 //!
-//! Write every quad as `(v_i, g, v_j, f)`, the ends of its black diagonal `v_i v_j` and the white vertices, f on the left.
-//! (2) reads `z_f − z_g = iρ (z_j − z_i)`. Around an inner black vertex the left sides cancel, and
+//! Write every quad as `(v_i, g, v_j, f)` with the black diagonal `v_i v_j` and the white vertices
+//! g and f, f on the left. Equation (2) is `z_f − z_g = iρ (z_j − z_i)`. Around an inner black
+//! vertex the left sides cancel, and
 //!
 //! ```text
 //! (L z)_i = Σ_j ρ_ij (z_i − z_j) = 0
 //! ```
 //!
-//! L is complex *symmetric*, and Re L is positive semidefinite where Re ρ > 0. White values follow by adding up (2) from
-//! quad to quad; no equation is left over. So the maps with H = 0 are given by the black boundary values b and one number w_0.
-//! With `T = L_BB − L_BI L_II⁻¹ L_IB` the white boundary vertices, w_k between b_k and b_{k+1} with the surface on the left, obey
+//! L is complex *symmetric*, and Re L is positive semidefinite if Re ρ > 0. White values follow by
+//! summing (2) from quad to quad; no equation remains. Hence the maps with H = 0 are parametrised
+//! by the black boundary values b and one number w_0. With `T = L_BB − L_BI L_II⁻¹ L_IB` the white
+//! boundary vertices, w_k between b_k and b_{k+1} with the surface on the left, satisfy
 //!
 //! ```text
 //! w_k − w_{k−1} = i (T b)_k
@@ -38,44 +40,46 @@ use loops::Loops;
 use matrix::{LowerTriangle, Numbering};
 use rows::BoundaryRows;
 
-/// There is no conformal Laplacian, or no factor of it.
+/// The conformal Laplacian or its factor does not exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LaplacianError {
-    /// The edges of the quads do not alternate between two classes of vertices.
+    /// The vertices do not fall into two classes between which the edges of the quads alternate.
     #[error(
         "the vertices of the quads cannot be coloured black and white ({classes} classes instead of 2): some loop has an \
          odd number of edges; split the quads into triangles"
     )]
     NotTwoColoured {
-        /// Classes of vertices that diagonals connect.
+        /// Number of classes of vertices connected by diagonals.
         classes: usize,
     },
     /// Black and white do not alternate along a boundary loop.
     #[error("black and white vertices do not alternate along boundary loop {boundary}")]
     NotAlternating {
-        /// The loop.
+        /// Index of the loop.
         boundary: usize,
     },
-    /// L_II has no factor.
+    /// L_II cannot be factorised.
     #[error("the conformal Laplacian of {unknowns} vertices cannot be factorised: {reason}")]
     Factorisation {
-        /// Inner black vertices.
+        /// Number of inner black vertices.
         unknowns: usize,
-        /// Why.
+        /// The reason.
         reason: Breakdown,
     },
 }
 
-/// Up to this many black boundary vertices T is formed as a dense matrix, by leaving the boundary to the end of the elimination.
+/// Up to this number of black boundary vertices T is formed as a dense matrix, by not eliminating
+/// the boundary.
 const DENSE: usize = 1000;
 
 /// The conformal Laplacian L of a quad graph, with a factor of `L_II`.
 ///
-/// I are the inner black vertices, B the black boundary vertices. On a closed surface B is empty, and one black vertex is
-/// *held*: it is not in I, and its value is 0 in solves.
+/// I are the inner black vertices and B the black boundary vertices. On a closed surface B is
+/// empty, and one black vertex is *pinned*: it is not in I, and its value is 0.
 ///
-/// Boundary positions count the black boundary vertices loop by loop, n in all, in the order of
-/// [`QuadGraph::boundary`]. The white boundary vertex of position k follows the black one along its loop.
+/// Boundary positions count the black boundary vertices loop by loop, n in total, in the order of
+/// [`QuadGraph::boundary`]. The white boundary vertex of position k follows the black one along its
+/// loop.
 #[derive(Debug)]
 pub struct ConformalLaplacian {
     colouring: Colouring,
@@ -83,7 +87,8 @@ pub struct ConformalLaplacian {
     loops: Loops,
     rows: BoundaryRows,
     factor: Factor,
-    /// For every loop but the first, c (n) with `w_k − w_l = c·b`, k the first position of the loop, l that of the first loop.
+    /// For every loop but the first, c (n) with `w_k − w_l = c·b`, where k is the first position of
+    /// the loop and l that of the first loop.
     shifts: Vec<Vec<Complex64>>,
 }
 
@@ -91,16 +96,16 @@ impl ConformalLaplacian {
     /// Assembles L and factorises L_II. `factoring` is called when the factorisation begins.
     ///
     /// # Errors
-    /// [`LaplacianError`]
+    /// [`LaplacianError`].
     pub fn new(graph: &QuadGraph, factoring: impl FnOnce()) -> Result<Self, LaplacianError> {
         ConformalLaplacian::with(graph, Colouring::new(graph)?, DENSE, factoring)
     }
 
-    /// The same for given colours, with T as a dense matrix for at most `dense` black boundary vertices. 0 is best where T is not
-    /// needed.
+    /// Does the same as [`ConformalLaplacian::new`] for given colours, with T as a dense matrix for
+    /// at most `dense` black boundary vertices; use 0 if T is not needed.
     ///
     /// # Errors
-    /// [`LaplacianError`]
+    /// [`LaplacianError`].
     pub fn with(
         graph: &QuadGraph,
         colouring: Colouring,
@@ -125,7 +130,7 @@ impl ConformalLaplacian {
         &self.colouring
     }
 
-    /// Number of black boundary vertices, n; as many are white.
+    /// Number n of black boundary vertices, equal to that of white ones.
     pub fn len(&self) -> usize {
         self.loops.black.len()
     }
@@ -145,37 +150,38 @@ impl ConformalLaplacian {
         &self.loops.black
     }
 
-    /// The white boundary vertices (n): number k lies between the black ones k and k + 1 of its loop.
+    /// The white boundary vertices (n): number k lies between the black ones k and k + 1 of its
+    /// loop.
     pub fn white_boundary(&self) -> &[u32] {
         &self.loops.white
     }
 
-    /// Where the black boundary vertices are in [`QuadGraph::boundary`] (n).
+    /// The positions of the black boundary vertices in [`QuadGraph::boundary`] (n).
     pub fn black_index(&self) -> &[u32] {
         &self.loops.black_index
     }
 
-    /// Where the white boundary vertices are in [`QuadGraph::boundary`] (n).
+    /// The positions of the white boundary vertices in [`QuadGraph::boundary`] (n).
     pub fn white_index(&self) -> &[u32] {
         &self.loops.white_index
     }
 
-    /// The inner black vertices I, in the order of elimination (m).
+    /// The inner black vertices I in elimination order (m).
     pub fn inner(&self) -> &[u32] {
         &self.numbering.inner
     }
 
-    /// The number of vertex `v` among [`ConformalLaplacian::inner`], where it is one of them.
+    /// The number of vertex `v` in [`ConformalLaplacian::inner`], if it is an inner black vertex.
     pub fn inner_index(&self, v: u32) -> Option<usize> {
         self.numbering.index(v)
     }
 
-    /// The black vertex that is held, on a closed surface.
+    /// The pinned black vertex of a closed surface.
     pub fn held(&self) -> Option<u32> {
         self.numbering.held
     }
 
-    /// Memory for solves, to be used again and again.
+    /// Returns working memory for solves, which can be reused.
     pub fn work(&self) -> Work {
         self.factor.work(self.numbering.inner.len())
     }
@@ -185,16 +191,18 @@ impl ConformalLaplacian {
         self.factor.solve(y, work);
     }
 
-    /// Writes the flux `T b = L_BB b − L_BI L_II⁻¹ L_IB b` (n) of black boundary values b (n). T is complex symmetric:
-    /// its Hermitian transpose takes x to the conjugate of `T x̄`.
+    /// Computes the flux `T b = L_BB b − L_BI L_II⁻¹ L_IB b` (n) of black boundary values b (n).
+    ///
+    /// T is complex symmetric: its Hermitian transpose takes x to the conjugate of `T x̄`.
     pub fn flux(&self, b: &[Complex64], flux: &mut [Complex64], work: &mut Work) {
         self.factor.flux(&self.rows, b, flux, work);
     }
 
-    /// Writes the white boundary values w (n), given black ones b and their [flux](ConformalLaplacian::flux).
+    /// Computes the white boundary values w (n) from the black ones b and their
+    /// [flux](ConformalLaplacian::flux).
     ///
-    /// `w_k − w_{k−1} = i (T b)_k` along each loop; the mean of w over the first loop is w_0, and the other loops follow
-    /// by adding up (2) along a path of quads.
+    /// `w_k − w_{k−1} = i (T b)_k` along each loop. The mean of w over the first loop is w_0, and
+    /// the other loops follow by summing (2) along a path of quads.
     pub fn white(&self, b: &[Complex64], flux: &[Complex64], w_0: Complex64, w: &mut [Complex64]) {
         for range in &self.loops.ranges {
             let mut sum = Complex64::ZERO;
@@ -215,8 +223,8 @@ impl ConformalLaplacian {
         }
     }
 
-    /// For every loop but the first, the vector c (n) with `w_k − w_l = c·b` (no conjugate): k is the first position of
-    /// that loop, l that of the first loop.
+    /// For every loop but the first, the vector c (n) with `w_k − w_l = c·b` (no conjugate), where
+    /// k is the first position of that loop and l that of the first loop.
     pub fn shifts(&self) -> &[Vec<Complex64>] {
         &self.shifts
     }

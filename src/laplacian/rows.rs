@@ -6,12 +6,12 @@ use super::Colouring;
 use super::matrix::Numbering;
 use crate::quad_graph::QuadGraph;
 
-/// L_BB and L_BI by entries; an entry may be there in several parts.
+/// The entries of L_BB and L_BI; an entry can be split into several terms.
 #[derive(Debug)]
 pub(super) struct BoundaryRows {
     /// The diagonal of L_BB (n).
     diagonal: Vec<Complex64>,
-    /// Pairs of boundary positions that a quad couples: (k, l, −ρ) for the entries (k, l) and (l, k).
+    /// Pairs of boundary positions coupled by a quad: (k, l, −ρ) for the entries (k, l) and (l, k).
     pairs: Vec<(u32, u32, Complex64)>,
     /// Entries of L_BI: (boundary position, inner number, −ρ).
     outward: Vec<(u32, u32, Complex64)>,
@@ -42,12 +42,12 @@ impl BoundaryRows {
         self.outward.push((position as u32, inner, -rho));
     }
 
-    /// The inner numbers that are coupled with the boundary, some of them repeatedly.
+    /// The inner numbers that are coupled to the boundary, possibly repeated.
     pub fn ports(&self) -> impl Iterator<Item = u32> {
         self.outward.iter().map(|&(_, inner, _)| inner)
     }
 
-    /// `out = L_BB b`
+    /// Computes `out = L_BB b`.
     pub fn along(&self, b: &[Complex64], out: &mut [Complex64]) {
         for ((out, d), b) in out.iter_mut().zip(&self.diagonal).zip(b) {
             *out = d * b;
@@ -58,14 +58,14 @@ impl BoundaryRows {
         }
     }
 
-    /// `y += L_IB b`
+    /// Computes `y += L_IB b`.
     pub fn inward(&self, b: &[Complex64], y: &mut [Complex64]) {
         for &(k, i, value) in &self.outward {
             y[i as usize] += value * b[k as usize];
         }
     }
 
-    /// `out −= L_BI y`
+    /// Computes `out −= L_BI y`.
     pub fn subtract_outward(&self, y: &[Complex64], out: &mut [Complex64]) {
         for &(k, i, value) in &self.outward {
             out[k as usize] -= value * y[i as usize];
