@@ -14,32 +14,33 @@ use crate::surface::normals::{Facets, NormalError, NormalSpec};
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::diagnosis::Diagnosis;
 
-/// A surface made ready to be mapped: in one piece, oriented, with a number ρ for every quad.
+/// A surface prepared for mapping: connected, oriented, with a number ρ for every quad.
 #[derive(Clone, Debug)]
 pub struct Domain {
-    /// The surface as it is mapped.
+    /// The surface to be mapped.
     pub disc: OrientedMesh,
-    /// The tangent planes that ρ was measured on, where it was not on the faces' own.
+    /// The tangent planes on which ρ was measured, if these are not the faces' own.
     pub planes: Option<TangentPlanes>,
     /// Its quad graph.
     pub graph: QuadGraph,
-    /// Where boundary lengths were asked for: the graph has them in the place of those at rest.
+    /// The prescribed boundary lengths, if any; the graph contains them instead of the lengths at
+    /// rest.
     pub prescribed: Option<Prescribed>,
 }
 
 impl Domain {
-    /// The domain of a disc on which nothing is known but its positions.
+    /// Makes the domain of a disc from its positions alone.
     ///
     /// # Errors
-    /// An unknown dual point; faces that give no ρ.
+    /// An unknown dual point; faces that do not define ρ.
     pub fn of_positions(disc: OrientedMesh, options: &MapOptions) -> Result<Self, MapError> {
         Domain::with_planes(disc, None, options)
     }
 
-    /// The domain of a disc, ρ of quads measured on `planes` where they are given.
+    /// Makes the domain of a disc, with ρ of quads measured on `planes` if given.
     ///
     /// # Errors
-    /// An unknown dual point; faces that give no ρ; boundary lengths that no map has.
+    /// An unknown dual point; faces that do not define ρ; impossible boundary lengths.
     pub fn with_planes(
         disc: OrientedMesh,
         planes: Option<TangentPlanes>,
@@ -54,7 +55,7 @@ impl Domain {
         Ok(Domain { disc, planes, graph, prescribed })
     }
 
-    /// Its rest lengths and areas.
+    /// Returns the rest lengths and areas.
     ///
     /// # Errors
     /// An unknown dual point; degenerate faces.
@@ -70,23 +71,26 @@ impl Domain {
         self.disc.faces.arity() == Some(3)
     }
 
-    /// Whether the map that puts the vertices of the mesh at `z` is one-to-one, exactly.
+    /// Whether the map with the mesh vertices at `z` is injective, by exact predicates.
     pub fn is_one_to_one(&self, z: &[Complex64]) -> bool {
         self.validity(z).is_one_to_one()
     }
 
-    /// The faces that fold in the map that puts the vertices of the mesh at `z`, as the domain numbers them.
+    /// Returns the faces that are flipped in the map with the mesh vertices at `z`, as indices of
+    /// the domain.
     pub(super) fn folded(&self, z: &[Complex64]) -> Vec<u32> {
         folded_faces(&self.disc, |c| z[self.disc.faces.corners()[c] as usize])
     }
 
-    /// The exact check of the map that puts the vertices of the mesh at `z`; what follows these, as dual vertices do, does not count.
+    /// Checks the map with the mesh vertices at `z` by exact predicates; further values, such as
+    /// those of dual vertices, are ignored.
     pub fn validity(&self, z: &[Complex64]) -> Validity {
         Validity::new(&self.disc, |c| z[self.disc.faces.corners()[c] as usize])
     }
 
-    /// A map of the mesh's vertices made one of the quad graph's: dual vertices at the middle of their faces, those on the boundary where
-    /// `fixed` has them, or on their edges.
+    /// Extends a map of the mesh's vertices to the quad graph: dual vertices are placed at the
+    /// barycentres of their faces, those on the boundary where `fixed` pins them, or on their
+    /// edges.
     pub(crate) fn with_dual_vertices(&self, mut z: Vec<Complex64>, fixed: &Fixed) -> Vec<Complex64> {
         let graph = &self.graph;
         if graph.primal == graph.vertices {
@@ -108,7 +112,7 @@ impl Domain {
         z
     }
 
-    /// The signed area inside the boundary of an image.
+    /// The signed area enclosed by the boundary of an image.
     pub(super) fn image_area(&self, z: &[Complex64]) -> f64 {
         let boundary = &self.graph.boundary;
         let next = boundary.iter().cycle().skip(1);
@@ -117,11 +121,11 @@ impl Domain {
     }
 }
 
-/// The tangent planes that ρ of the faces of `disc`, made of `input`, is to be measured on; `None` where the positions say
-/// all.
+/// Returns the tangent planes on which ρ of the faces of `disc`, which was made from `input`, is to
+/// be measured; `None` if it is computed from positions.
 ///
 /// # Errors
-/// Normals of triangles; an estimator that fails, or that needs what the input has not.
+/// Normals of triangles; an estimator that fails or lacks input.
 pub(super) fn planes(
     input: &Input,
     diagnosis: &Diagnosis,
@@ -143,7 +147,7 @@ pub(super) fn planes(
     if let (true, Some(face)) = (spec.name() == "file", input.face_without_normal) {
         return Err(MapError::NoNormal { face });
     }
-    // Where the surface is cut it has no neighbours any more: estimated on the whole.
+    // Normals are estimated before cutting, because faces along the cut lose their neighbours.
     let turned = oriented(&input.surface, diagnosis);
     let facets = match &turned {
         None => Facets::new(&input.surface, &diagnosis.topology.edges, input.digital.as_ref()),
@@ -158,7 +162,7 @@ pub(super) fn planes(
         source => estimated[source as usize],
     };
     let normals = (0..disc.faces.len()).map(of_face).collect();
-    // Those of a file, asked for by `rho`, are taken at their word.
+    // Normals of a file, requested by `rho`, are used unchanged.
     let exactly = options.normals.is_none() && options.rho == RhoSource::Normals;
     Ok(Some(match exactly {
         true => TangentPlanes::exactly(normals, options.rest),
@@ -166,7 +170,7 @@ pub(super) fn planes(
     }))
 }
 
-/// The surface with the faces turned over that need it; `None` where none does.
+/// Returns the surface with the faces flipped that need it; `None` if none does.
 fn oriented(surface: &Surface, diagnosis: &Diagnosis) -> Option<Surface> {
     let flip = &diagnosis.topology.orientation.flip;
     if !flip.contains(&true) {

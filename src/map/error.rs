@@ -12,19 +12,19 @@ use crate::surface::SurfaceError;
 use crate::surface::cut::CutError;
 use crate::surface::normals::NormalError;
 
-/// The request cannot be met.
+/// A map cannot be computed as requested.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MapError {
-    /// Arrays that are not a surface.
+    /// The arrays do not describe a surface.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// Options that contradict each other.
+    /// The options contradict each other.
     #[error(transparent)]
     Options(#[from] OptionsError),
-    /// A surface that is no disc and does not become one, or is too badly formed.
+    /// The surface is not a disc, and the opening that was asked for does not make it one.
     #[error("the surface cannot be mapped: {0}")]
     NoDisc(#[from] CutError),
-    /// ρ from normals was asked for, and some face has none.
+    /// ρ from normals was requested, and some face has none.
     #[error("face {face} has no usable normal, and ρ from normals needs one for every face")]
     NoNormal {
         /// The first such face.
@@ -33,74 +33,74 @@ pub enum MapError {
     /// ρ from normals was asked for on triangles.
     #[error("a triangle mesh has its own tangent planes: normals are for quad meshes and digital surfaces")]
     NormalsOfTriangles,
-    /// No estimate of the normals.
+    /// The normals cannot be estimated.
     #[error(transparent)]
     Normals(#[from] NormalError),
-    /// A height of faces that is none.
+    /// The height of surrogate faces is out of range.
     #[error("the height of surrogate faces is {height}; it must be positive, and at most 1")]
     SurrogateHeight {
-        /// The number asked for.
+        /// The requested height.
         height: f64,
     },
-    /// A shape of its own for a face that is to be seen along a normal.
+    /// A face needs a surrogate although normals are given.
     #[error("face {face} has no area, and its surrogate no place beside normals")]
     SurrogateNormals {
-        /// The first such face, as the source numbers them.
+        /// The first such face, as an index of the source.
         face: u32,
     },
-    /// A name of no dual point.
+    /// No dual point has this name.
     #[error("unknown dual point `{name}`; known: {known}")]
     UnknownDual {
-        /// The name asked for.
+        /// The requested name.
         name: String,
-        /// The names there are.
+        /// The known names.
         known: String,
     },
-    /// A name of no iterative backend.
+    /// No minimiser has this name.
     #[error("`{name}` does not solve nonlinear problems; those that do: auto, {known}")]
     NotAMinimiser {
-        /// The name asked for.
+        /// The requested name.
         name: String,
-        /// The names there are.
+        /// The known names.
         known: String,
     },
-    /// H alone with a boundary that is not held.
+    /// The energy is H alone, and the boundary is not pinned.
     #[error("H alone leaves the boundary free to take any shape: it must be fixed, or C, L or Lb be in the energy")]
     FreeBoundary,
-    /// No periodic map.
+    /// A periodic map cannot be computed.
     #[error(transparent)]
     Periodic(#[from] PeriodicError),
-    /// An energy other than H for periodic maps.
+    /// An energy other than H was requested for a periodic map.
     #[error("periodic maps minimise H, and `{energy}` was asked for")]
     PeriodicEnergy {
         /// The energy.
         energy: String,
     },
-    /// A vertex held where nothing is.
+    /// Vertices are pinned in a periodic map.
     #[error("periodic maps hold no vertices, and some are pinned")]
     PeriodicPins,
-    /// A solver that periodic maps do not take.
+    /// A solver was requested that does not compute periodic maps.
     #[error("periodic maps have a solver of their own, and `{name}` was asked for")]
     PeriodicSolver {
-        /// The name asked for.
+        /// The requested name.
         name: String,
     },
-    /// Faces removed from, or a cut through, a surface that is to be closed.
+    /// Faces are to be removed from, or a cut is to be made in, a surface that must be closed.
     #[error("periodic maps are of closed surfaces: nothing can be cut or removed")]
     PeriodicOpening,
-    /// An energy that leaves vertices free to be anywhere.
+    /// The energy does not determine the interior of the map.
     #[error("`{energy}` leaves the inside of the map undetermined: add H, or L")]
     Undetermined {
         /// The energy.
         energy: String,
     },
-    /// A tolerance that means nothing.
+    /// The tolerance is out of range.
     #[error("the tolerance is {tolerance}; it must be positive and below 1")]
     Tolerance {
-        /// The number asked for.
+        /// The requested tolerance.
         tolerance: f64,
     },
-    /// Pins that would fold the boundary.
+    /// The order of the pinned vertices on the boundary would flip faces.
     #[error(
         "the pins do not follow each other counter-clockwise along the boundary: vertex {vertex} is out of order; turn \
          the pins or the faces over"
@@ -109,127 +109,128 @@ pub enum MapError {
         /// The first such vertex of the source.
         vertex: u32,
     },
-    /// A boundary vertex of a circle map pinned elsewhere.
+    /// A boundary vertex of a circle map is pinned off the circle.
     #[error(
         "boundary vertex {vertex} is pinned at distance {radius} from 0: a circle map has its boundary at distance 1"
     )]
     PinOffCircle {
-        /// The vertex of the source.
+        /// The vertex, as an index of the source.
         vertex: u32,
         /// Its distance from 0.
         radius: f64,
     },
-    /// An inner vertex of a circle map pinned on the circle or outside.
+    /// An inner vertex of a circle map is pinned on or outside the circle.
     #[error(
         "vertex {vertex} is not on the boundary and is pinned at distance {radius} from 0: inside a circle map it must be \
          less than 1"
     )]
     PinOutside {
-        /// The vertex of the source.
+        /// The vertex, as an index of the source.
         vertex: u32,
         /// Its distance from 0.
         radius: f64,
     },
-    /// The order of a boundary that is on no circle.
+    /// The order of the boundary is to be kept, but it is not on a circle.
     #[error("the order is kept along a circle: the energy {energy} has no C")]
     NoCircle {
         /// The energy.
         energy: String,
     },
-    /// A held vertex that is not in use.
+    /// A pinned vertex belongs to no face.
     #[error("vertex {vertex} cannot be held: no face of the surface uses it (vertices count from 0)")]
     NotInUse {
-        /// Its index in the source.
+        /// The vertex, as an index of the source.
         vertex: u32,
     },
-    /// A held vertex that the cut passes through.
+    /// A pinned vertex lies on the cut.
     #[error("vertex {vertex} cannot be held: the surface is cut there, and it has {copies} images")]
     OnTheCut {
-        /// Its index in the source.
+        /// The vertex, as an index of the source.
         vertex: u32,
-        /// What it became.
+        /// Number of its copies.
         copies: usize,
     },
-    /// Weights beside what they do not go with.
+    /// Convex combination weights are combined with an option that they exclude.
     #[error("the weights {name} make a map without an energy and by a solver of its own, and {clash} was asked for")]
     WeightsOfNothing {
-        /// The weights.
+        /// Name of the weights.
         name: String,
-        /// What was asked for beside them.
+        /// The other option.
         clash: Clash,
     },
-    /// No map without folds to start from.
+    /// No map without flipped faces was found as a start.
     #[error(
         "no map without folds was found to start from: of the last one {folded} faces are folded (the first: {first:?}) and the shortest edge is \
          {smallest:.0e} of its extent, where doubles tell places apart by 1e-16 of it: a boundary that is held must be so on a convex curve, \
          and what is far from a short boundary is mapped too small; a longer boundary, or a map in parts, helps"
     )]
     NoValidStart {
-        /// Faces that are folded.
+        /// Number of flipped faces in the last attempt.
         folded: usize,
-        /// The first of them, as the source numbers them.
+        /// The first of them, as an index of the source.
         first: Option<u32>,
-        /// The shortest edge of its image over the extent of that.
+        /// Its shortest edge relative to its extent.
         smallest: f64,
     },
-    /// Quads that no map makes convex.
+    /// Some quads are not convex in any map.
     #[error(
         "no map makes the quads at vertex {vertex} convex, which is not on the boundary and has two of them alone, nor those at {} more",
         count - 1
     )]
     NoConvexQuads {
-        /// The first such vertex, as the source numbers them.
+        /// The first such vertex, as an index of the source.
         vertex: u32,
-        /// How many there are.
+        /// Number of such vertices.
         count: usize,
     },
-    /// Boundary lengths that no map has.
+    /// The prescribed boundary lengths are impossible.
     #[error(transparent)]
     Lengths(#[from] LengthsError),
-    /// No convex combination map.
+    /// A convex combination map cannot be computed.
     #[error(transparent)]
     Convex(#[from] ConvexError),
-    /// No usable ρ.
+    /// ρ is not defined.
     #[error(transparent)]
     QuadGraph(#[from] QuadGraphError),
-    /// Integral weights that are undefined.
+    /// Integral weights are undefined.
     #[error(transparent)]
     NonPositiveRho(#[from] NonPositiveRho),
-    /// An energy that the surface does not have.
+    /// The energy is not defined on the surface.
     #[error(transparent)]
     Energy(#[from] EnergyError),
-    /// Constraints that contradict or do not suffice.
+    /// The constraints are contradictory or insufficient.
     #[error(transparent)]
     Constraint(#[from] ConstraintError),
-    /// No solution of the linear problem.
+    /// The linear problem was not solved.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// No solution of the nonlinear problem.
+    /// The nonlinear problem was not solved.
     #[error(transparent)]
     Minimise(#[from] MinimiseError),
-    /// No solution of the problem on the boundary.
+    /// The problem on the boundary was not solved.
     #[error(transparent)]
     Reduced(#[from] BoundaryError),
-    /// A minimisation that ran out of iterations, or met rounding too early.
+    /// A minimisation reached its largest number of iterations, or the limit of rounding, before
+    /// the tolerance.
     #[error(
         "{solver} did not converge: {status} after {iterations} iterations, with the gradient at {reduction:.1e} of \
          that of the start ({tolerance:.1e} was asked for)"
     )]
     NotConverged {
-        /// Its name.
+        /// Name of the solver.
         solver: &'static str,
-        /// How it ended.
+        /// The final status.
         status: &'static str,
-        /// Iterations made.
+        /// Number of iterations.
         iterations: usize,
         /// |∇E| relative to the start.
         reduction: f64,
-        /// What was asked for.
+        /// The requested tolerance.
         tolerance: f64,
     },
 }
 
-/// A request beside the weights of a convex combination map, which have no use for it.
+/// An option that convex combination weights exclude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clash {
     /// An energy.
@@ -248,7 +249,7 @@ impl std::fmt::Display for Clash {
 }
 
 impl MapError {
-    /// Whether nothing stands against the map but integral weights, which are undefined where Re ρ ≤ 0, whichever backend met that.
+    /// Whether undefined integral weights (Re ρ ≤ 0) are the cause, whichever solver reported it.
     pub fn is_of_integral_weights(&self) -> bool {
         match self {
             MapError::NonPositiveRho(_) | MapError::Reduced(BoundaryError::NonPositiveRho(_)) => true,

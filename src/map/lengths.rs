@@ -11,81 +11,81 @@ use crate::io::{BoundaryLengths, LengthUnit, PerEdge};
 use crate::quad_graph::QuadGraph;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// Why boundary edges cannot have the lengths that are asked for.
+/// Boundary edges cannot have the prescribed lengths.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LengthsError {
-    /// Nothing that keeps lengths.
+    /// The energy has no term that enforces boundary lengths.
     #[error("boundary lengths are kept by L', and the energy is `{energy}`")]
     NotKept {
         /// The energy.
         energy: String,
     },
-    /// Too few or too many numbers.
+    /// The number of lengths is not the number of boundary edges.
     #[error(
         "{found} boundary lengths are given, and the boundary has {edges} edges: one for each is needed, from the first \
          vertex of the boundary on"
     )]
     Count {
-        /// Numbers given.
+        /// Number of lengths given.
         found: usize,
-        /// Edges there are.
+        /// Number of boundary edges.
         edges: usize,
     },
-    /// Vertices that are not next to each other on the boundary.
+    /// Two vertices are not neighbours on the boundary.
     #[error("{v} {w} is no boundary edge")]
     NoSuchEdge {
-        /// The vertex named first.
+        /// The first vertex.
         v: u32,
-        /// The other.
+        /// The second vertex.
         w: u32,
     },
-    /// An edge without number.
+    /// A boundary edge has no length.
     #[error("boundary edge {v} {w} has no length: give one for each of the {edges} edges")]
     Missing {
-        /// Where the edge begins.
+        /// The first vertex of the edge.
         v: u32,
-        /// Where it ends.
+        /// The second vertex of the edge.
         w: u32,
-        /// Edges of the boundary.
+        /// Number of boundary edges.
         edges: usize,
     },
-    /// An edge with two sides on the boundary, which a cut made.
+    /// An edge has two copies on the boundary because the surface was cut there.
     #[error(
         "edge {v} {w} is on the boundary twice, for the surface is cut there: list the lengths in order, without vertices"
     )]
     Ambiguous {
-        /// The vertex named first.
+        /// The first vertex.
         v: u32,
-        /// The other.
+        /// The second vertex.
         w: u32,
     },
-    /// An edge that the others cannot span.
+    /// An edge is longer than all others together.
     #[error(
         "boundary edge {v} {w} is to be {length} long, and all others together {others}: no polygon has such edges"
     )]
     Open {
-        /// Where the edge begins.
+        /// The first vertex of the edge.
         v: u32,
-        /// Where it ends.
+        /// The second vertex of the edge.
         w: u32,
         /// Its length.
         length: f64,
-        /// The sum of the others'.
+        /// The sum of the lengths of the others.
         others: f64,
     },
 }
 
-/// Boundary lengths that were asked for.
+/// Prescribed boundary lengths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prescribed {
-    /// How they were given.
+    /// The unit in which they were given.
     pub unit: LengthUnit,
-    /// ln (length asked for / length at rest) of each boundary edge of the quad graph (`nb`).
+    /// ln (prescribed length / length at rest) of each boundary edge of the quad graph (`nb`).
     pub log_factors: Vec<f64>,
 }
 
-/// Gives the boundary edges of the graph, which is that of the disc, the lengths that `options` ask for in the place of those at
-/// rest; the two halves of a triangle's edge the same factor.
+/// Replaces the rest lengths of the graph's boundary edges by those that `options` prescribe; both
+/// halves of an edge of a triangle mesh get the same factor.
 pub(super) fn prescribe(
     options: &MapOptions,
     disc: &OrientedMesh,
@@ -116,7 +116,7 @@ pub(super) fn prescribe(
     Ok(Some(Prescribed { unit: given.unit, log_factors }))
 }
 
-/// The numbers of the edges along the boundary.
+/// Returns the numbers in the order of the edges along the boundary.
 fn in_order(given: &BoundaryLengths, disc: &OrientedMesh) -> Result<Vec<f64>, LengthsError> {
     let edges = disc.boundary.len();
     let named = match &given.values {
@@ -147,28 +147,28 @@ fn in_order(given: &BoundaryLengths, disc: &OrientedMesh) -> Result<Vec<f64>, Le
     values.into_iter().enumerate().map(|(k, value)| value.ok_or_else(|| missing(k))).collect()
 }
 
-/// The ends of the `k`-th boundary edge, as the source numbers them.
+/// The ends of the `k`-th boundary edge, as indices of the source.
 fn ends(disc: &OrientedMesh, k: usize) -> [u32; 2] {
     [k, (k + 1) % disc.boundary.len()].map(|k| disc.source_vertex[disc.boundary[k] as usize])
 }
 
-/// How well the lengths that were asked for are met.
+/// The accuracy with which prescribed lengths are attained.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LengthsRecord {
-    /// What was given: `lengths`, or `factors` of those on the surface.
+    /// The unit in which they were given: `lengths`, or `factors` of the lengths on the surface.
     pub given: LengthUnit,
-    /// Edges of the mesh's boundary.
+    /// Number of edges of the mesh's boundary.
     pub edges: usize,
-    /// The sum of what was asked for.
+    /// Sum of the prescribed lengths.
     pub perimeter: f64,
-    /// | |e|/l − 1 | over the boundary edges of the quad graph: of a triangle mesh the halves, each of which keeps its own.
+    ///  |e|/l − 1 | over the boundary edges of the quad graph; on triangle meshes these are halves of edges.
     pub error: MeanMax,
-    /// The same over the mesh's edges, whose halves need not be in line.
+    /// The same over the mesh's edges, whose halves need not be collinear.
     pub mesh_error: MeanMax,
 }
 
 impl LengthsRecord {
-    /// The record of a map of the graph, whose boundary lengths are those asked for.
+    /// Makes the record of a map of the graph, whose boundary lengths are the prescribed ones.
     pub fn new(prescribed: &Prescribed, disc: &OrientedMesh, graph: &QuadGraph, z: &[Complex64]) -> Self {
         let (n, edges) = (graph.boundary.len(), disc.boundary.len());
         let errors = |step: usize| {
