@@ -57,7 +57,7 @@ impl LinearSolver for Relaxation {
         for _ in 0..20_000 {
             for &v in &problem.elimination.free {
                 let (mut slope, mut curvature) = (Complex64::ZERO, 0.0);
-                for &q in incidence.quads_at(v) {
+                for &q in incidence.of(v) {
                     let q = q as usize;
                     let coefficients = graph.quads[q].into_iter().zip(conformal::row(graph.rho[q]));
                     for (_, a) in coefficients.filter(|&(u, _)| u == v) {

@@ -23,6 +23,7 @@ use std::ops::Range;
 use num_complex::Complex64;
 
 use crate::geometry::vector;
+use crate::sparse::Lists;
 
 /// A quad graph with the rest geometry of its quads and boundary.
 ///
@@ -152,41 +153,14 @@ impl QuadGraph {
     }
 
     /// Finds the quads around every vertex.
-    pub fn incidence(&self) -> Incidence {
-        let mut offsets = vec![0u32; self.vertices + 1];
-        for &v in self.quads.iter().flatten() {
-            offsets[v as usize + 1] += 1;
-        }
-        for v in 0..self.vertices {
-            offsets[v + 1] += offsets[v];
-        }
-        let mut quads = vec![0; 4 * self.quads.len()];
-        let mut cursor = offsets.clone();
-        for (q, quad) in self.quads.iter().enumerate() {
-            for &v in quad {
-                quads[cursor[v as usize] as usize] = q as u32;
-                cursor[v as usize] += 1;
-            }
-        }
-        Incidence { offsets, quads }
+    pub fn incidence(&self) -> Lists {
+        let pairs = self.quads.iter().zip(0..).flat_map(|(quad, q)| quad.map(|v| (v, q)));
+        Lists::new(self.vertices, pairs)
     }
 
     /// The length of the boundary at rest.
     pub fn perimeter(&self) -> f64 {
         self.boundary_length.iter().sum()
-    }
-}
-
-/// The quads around every vertex of a quad graph.
-pub struct Incidence {
-    offsets: Vec<u32>,
-    quads: Vec<u32>,
-}
-
-impl Incidence {
-    /// The quads of which `v` is a vertex, ascending.
-    pub fn quads_at(&self, v: u32) -> &[u32] {
-        &self.quads[self.offsets[v as usize] as usize..self.offsets[v as usize + 1] as usize]
     }
 }
 

@@ -1,3 +1,5 @@
+use super::Lists;
+
 /// Sets of vertices, all of the same small size: the vertices of the pieces of an energy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stencils {
@@ -147,8 +149,8 @@ pub(crate) fn pairs_of(n: usize) -> impl Iterator<Item = (usize, usize)> {
 
 /// The pieces around every unknown.
 struct Around {
-    offsets: Vec<u32>,
-    pieces: Vec<u32>,
+    /// The pieces of each unknown, numbered through all lists of stencils.
+    pieces: Lists,
     /// The first index of each list in the numbering of all pieces.
     first: Vec<u32>,
 }
@@ -159,34 +161,19 @@ impl Around {
         for list in stencils {
             first.push(first[first.len() - 1] + list.len() as u32);
         }
-        let members = || {
-            stencils.iter().zip(&first).flat_map(|(list, &first)| {
-                list.vertices.iter().enumerate().filter_map(move |(k, &v)| {
-                    let u = unknown[v as usize];
-                    (u != Pattern::NONE).then_some((u, first + (k / list.arity) as u32))
-                })
+        let members = stencils.iter().zip(&first).flat_map(|(list, &first)| {
+            list.vertices.iter().enumerate().filter_map(move |(k, &v)| {
+                let u = unknown[v as usize];
+                (u != Pattern::NONE).then_some((u, first + (k / list.arity) as u32))
             })
-        };
-        let mut offsets = vec![0u32; size + 1];
-        for (u, _) in members() {
-            offsets[u as usize + 1] += 1;
-        }
-        for u in 0..size {
-            offsets[u + 1] += offsets[u];
-        }
-        let mut pieces = vec![0; offsets[size] as usize];
-        let mut cursor = offsets.clone();
-        for (u, piece) in members() {
-            pieces[cursor[u as usize] as usize] = piece;
-            cursor[u as usize] += 1;
-        }
-        Around { offsets, pieces, first }
+        });
+        let pieces = Lists::new(size, members);
+        Around { pieces, first }
     }
 
     /// Iterates over (list, piece) for every piece around unknown `u`.
     fn pieces(&self, u: u32) -> impl Iterator<Item = (usize, usize)> {
-        let around = self.offsets[u as usize] as usize..self.offsets[u as usize + 1] as usize;
-        self.pieces[around].iter().map(|&piece| {
+        self.pieces.of(u).iter().map(|&piece| {
             let list = self.first.partition_point(|&first| first <= piece) - 1;
             (list, (piece - self.first[list]) as usize)
         })

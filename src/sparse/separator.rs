@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::Lists;
 use super::dissection::Piece;
 
 const NONE: u32 = u32::MAX;
@@ -20,8 +21,8 @@ pub(super) struct Band {
     pieces: Vec<[u32; 4]>,
     /// The vertices' numbers outside of the band.
     names: Vec<u32>,
-    offsets: Vec<u32>,
-    around: Vec<u32>,
+    /// The pieces around each vertex.
+    around: Lists,
     low: Vec<bool>,
     high: Vec<bool>,
     /// The piece from which a path enters each vertex and the piece to which it leaves; [`NONE`]
@@ -49,25 +50,12 @@ impl Band {
             })
             .collect();
         let count = names.len();
-        let mut offsets = vec![0; count + 1];
-        for &v in pieces.iter().flatten().filter(|v| **v != NONE) {
-            offsets[v as usize + 1] += 1;
-        }
-        for v in 0..count {
-            offsets[v + 1] += offsets[v];
-        }
-        let mut cursor = offsets.clone();
-        let mut around = vec![0; offsets[count] as usize];
-        for (p, piece) in pieces.iter().enumerate() {
-            for &v in piece.iter().filter(|v| **v != NONE) {
-                around[cursor[v as usize] as usize] = p as u32;
-                cursor[v as usize] += 1;
-            }
-        }
+        let members = pieces.iter().zip(0..).flat_map(|(piece, p)| piece.map(|v| (v, p)));
+        let around = Lists::new(count, members.filter(|&(v, _)| v != NONE));
         let level = vec![NONE; 2 * count + pieces.len()];
         let [low, high] = [(); 2].map(|()| vec![false; count]);
         let [from, to] = [(); 2].map(|()| vec![NONE; count]);
-        Band { pieces, names, offsets, around, low, high, from, to, level }
+        Band { pieces, names, around, low, high, from, to, level }
     }
 
     /// Assigns vertices to the low side.
@@ -118,10 +106,7 @@ impl Band {
             (0, 0) => Ok((self.from[v] != OUTSIDE).then(|| first_piece + self.from[v])),
             (0, _) => Err(()),
             (_, 0) => Ok(has_path.then_some(node - 1)),
-            _ => {
-                let around = &self.around[self.offsets[v] as usize..self.offsets[v + 1] as usize];
-                around.get(k as usize - 1).map(|p| Some(first_piece + p)).ok_or(())
-            }
+            _ => self.around.of(v as u32).get(k as usize - 1).map(|p| Some(first_piece + p)).ok_or(()),
         }
     }
 

@@ -3,6 +3,7 @@ use std::ops::Range;
 use super::camera::Lens;
 use super::{SurfaceView, scan::scan};
 use crate::geometry::vector::{add, scale};
+use crate::sparse::Lists;
 
 /// Number of pixel rows that are drawn at a time, so that their samples stay in the cache.
 const BAND: usize = 16;
@@ -20,12 +21,12 @@ pub(super) struct Scene<'a> {
     /// Projected vertices, followed by the centres of all faces unless all faces are triangles.
     places: Vec<[f64; 3]>,
     face_of_corner: Vec<u32>,
-    lines: Vec<Line>,
+    lines: Vec<SceneLine>,
 }
 
 /// A line on the surface.
 #[derive(Clone, Copy)]
-struct Line {
+struct SceneLine {
     ends: [[f64; 3]; 2],
     half_width: f64,
     /// Nearness added to that of the surface.
@@ -71,7 +72,7 @@ impl<'a> Scene<'a> {
         let places = &self.places;
         self.lines.extend(edges.map(|edge| {
             let ends = edge.map(|v| places[v as usize]);
-            Line { ends, half_width, lift: lift * ends[0][2].max(ends[1][2]), style: FIRST_LINE + style }
+            SceneLine { ends, half_width, lift: lift * ends[0][2].max(ends[1][2]), style: FIRST_LINE + style }
         }));
     }
 
@@ -105,11 +106,11 @@ impl<'a> Scene<'a> {
     pub(super) fn bands(&self, [width, height]: [usize; 2], samples: usize, mut show: impl FnMut(usize, &[u32])) {
         let rows = BAND * samples;
         let bands = height.div_ceil(rows);
-        let triangles = Bins::new(bands, self.face_of_corner.len(), |c| {
+        let triangles = in_bands(bands, self.face_of_corner.len(), |c| {
             let corners = self.triangle(c)?.places;
             bands_of(&corners, rows, bands)
         });
-        let lines = Bins::new(bands, self.lines.len(), |l| bands_of(&self.lines[l].ribbon(), rows, bands));
+        let lines = in_bands(bands, self.lines.len(), |l| bands_of(&self.lines[l].ribbon(), rows, bands));
         let mut seen = vec![EMPTY; rows * width];
         let mut nearest = vec![0.0; rows * width];
         for band in 0..bands {
@@ -128,12 +129,12 @@ impl<'a> Scene<'a> {
                     }
                 });
             };
-            for &c in triangles.get(band) {
+            for &c in triangles.of(band as u32) {
                 if let Some(triangle) = self.triangle(c as usize) {
                     lay(triangle.places, c);
                 }
             }
-            for &l in lines.get(band) {
+            for &l in lines.of(band as u32) {
                 let line = &self.lines[l as usize];
                 let [a, b, c, d] = line.ribbon();
                 lay([a, b, c], line.style);
@@ -144,7 +145,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-impl Line {
+impl SceneLine {
     /// The corners of the strip that the line covers; it is longer than the line by half its width,
     /// so that bends are closed.
     fn ribbon(&self) -> [[f64; 3]; 4] {
@@ -179,34 +180,9 @@ fn bands_of(polygon: &[[f64; 3]], rows: usize, bands: usize) -> Option<Range<usi
     (first < end).then(|| (first / rows).min(bands)..end.div_ceil(rows).min(bands))
 }
 
-/// Numbers sorted into bins, ascending in each bin.
-struct Bins {
-    offset: Vec<usize>,
-    numbers: Vec<u32>,
-}
-
-impl Bins {
-    /// Puts each of `0 .. count` into the bins of a range.
-    fn new(bins: usize, count: usize, range: impl Fn(usize) -> Option<Range<usize>>) -> Bins {
-        let mut offset = vec![0; bins + 1];
-        for n in 0..count {
-            range(n).into_iter().flatten().for_each(|bin| offset[bin + 1] += 1);
-        }
-        for bin in 0..bins {
-            offset[bin + 1] += offset[bin];
-        }
-        let mut numbers = vec![0; offset[bins]];
-        let mut cursor = offset.clone();
-        for n in 0..count {
-            for bin in range(n).into_iter().flatten() {
-                numbers[cursor[bin]] = n as u32;
-                cursor[bin] += 1;
-            }
-        }
-        Bins { offset, numbers }
-    }
-
-    fn get(&self, bin: usize) -> &[u32] {
-        &self.numbers[self.offset[bin]..self.offset[bin + 1]]
-    }
+/// Puts each of the numbers `0 .. count` into the bands of its range.
+fn in_bands(bands: usize, count: usize, range: impl Fn(usize) -> Option<Range<usize>>) -> Lists {
+    let range = &range;
+    let pairs = (0..count).flat_map(|n| range(n).into_iter().flatten().map(move |band| (band as u32, n as u32)));
+    Lists::new(bands, pairs)
 }

@@ -3,6 +3,7 @@ use std::ops::RangeInclusive;
 
 use super::{GlbError, Model};
 use crate::geometry::vector::{dot, sub};
+use crate::sparse::Lists;
 use crate::surface::Faces;
 
 /// Allowed sizes: their squares, and those of a millionth of them, are 32-bit floats. Viewers
@@ -93,22 +94,11 @@ fn unit(normal: [f64; 3]) -> [f32; 3] {
 /// merged vertex, and the merged vertex of each corner.
 fn merged<A: PartialEq>(model: &Model, attributes: impl Fn(usize) -> A) -> (Vec<u32>, Vec<u32>) {
     let vertex = model.faces.corners();
-    // Counting sort of the corners by vertex.
-    let mut first = vec![0u32; model.positions.len() + 1];
-    vertex.iter().for_each(|&v| first[v as usize + 1] += 1);
-    for v in 0..model.positions.len() {
-        first[v + 1] += first[v];
-    }
-    let mut cursor = first.clone();
-    let mut sorted = vec![0u32; vertex.len()];
-    for (c, &v) in vertex.iter().enumerate() {
-        sorted[cursor[v as usize] as usize] = c as u32;
-        cursor[v as usize] += 1;
-    }
+    let corners = Lists::new(model.positions.len(), vertex.iter().zip(0..).map(|(&v, c)| (v, c)));
     let (mut representative, mut of_corner) = (Vec::with_capacity(model.positions.len()), vec![0; vertex.len()]);
-    for range in first.windows(2) {
+    for v in 0..corners.len() as u32 {
         let start = representative.len();
-        for &c in &sorted[range[0] as usize..range[1] as usize] {
+        for &c in corners.of(v) {
             let own = attributes(c as usize);
             let known = representative[start..].iter().position(|&other: &u32| attributes(other as usize) == own);
             let merged = start + known.unwrap_or(representative.len() - start);

@@ -9,7 +9,8 @@ use crate::energy::Rest;
 use crate::energy::conformal::Weight;
 use crate::map::Domain;
 use crate::quad_graph::metric::RestMetric;
-use crate::quad_graph::{Incidence, QuadGraph, triangles_of_face};
+use crate::quad_graph::{QuadGraph, triangles_of_face};
+use crate::sparse::Lists;
 
 /// The faces around some of a domain, vertices numbered anew: first the mesh's, then dual ones.
 pub(super) struct Patch {
@@ -84,7 +85,7 @@ impl FacesAt {
 
 impl Patch {
     /// The patch of these faces, ascending. What `fixed` holds, and vertices with faces outside, do not move.
-    pub fn new(domain: &Domain, (at, incidence): (&FacesAt, &Incidence), faces: Vec<u32>, fixed: &Fixed) -> Self {
+    pub fn new(domain: &Domain, (at, incidence): (&FacesAt, &Lists), faces: Vec<u32>, fixed: &Fixed) -> Self {
         let (disc, whole) = (&domain.disc, &domain.graph);
         let has_dual = whole.primal < whole.vertices;
         let inside = |f: u32| faces.binary_search(&f).is_ok();
@@ -142,7 +143,7 @@ impl Patch {
         // What moves first, then the corners of its quads that do not.
         let mut quads: Vec<u32> = Vec::new();
         for (&v, _) in vertices.iter().zip(&held).filter(|(_, held)| !**held) {
-            quads.extend(incidence.quads_at(v));
+            quads.extend(incidence.of(v));
         }
         quads.sort_unstable();
         quads.dedup();

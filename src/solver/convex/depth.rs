@@ -1,4 +1,5 @@
 use super::Weighted;
+use crate::sparse::Lists;
 use crate::surface::edges::Edges;
 use crate::surface::oriented_mesh::OrientedMesh;
 
@@ -67,21 +68,8 @@ fn matched(ends: &[[u32; 2]], is_nearer: &dyn Fn(u32, u32) -> bool, vertices: us
 /// The smallest number of edges from each vertex to the boundary.
 fn depths(disc: &OrientedMesh, edges: &Edges) -> Vec<u32> {
     let vertices = disc.positions.len();
-    let mut offsets = vec![0u32; vertices + 1];
-    for &v in edges.ends.iter().flatten() {
-        offsets[v as usize + 1] += 1;
-    }
-    for v in 0..vertices {
-        offsets[v + 1] += offsets[v];
-    }
-    let mut neighbours = vec![0; 2 * edges.len()];
-    let mut cursor = offsets.clone();
-    for &[a, b] in &edges.ends {
-        for (v, other) in [(a, b), (b, a)] {
-            neighbours[cursor[v as usize] as usize] = other;
-            cursor[v as usize] += 1;
-        }
-    }
+    let both_ways = edges.ends.iter().flat_map(|&[a, b]| [(a, b), (b, a)]);
+    let neighbours = Lists::new(vertices, both_ways);
     let mut depth = vec![u32::MAX; vertices];
     let mut queue = disc.boundary.clone();
     for &v in &queue {
@@ -91,7 +79,7 @@ fn depths(disc: &OrientedMesh, edges: &Edges) -> Vec<u32> {
     while head < queue.len() {
         let v = queue[head] as usize;
         head += 1;
-        for &w in &neighbours[offsets[v] as usize..offsets[v + 1] as usize] {
+        for &w in neighbours.of(v as u32) {
             if depth[w as usize] == u32::MAX {
                 depth[w as usize] = depth[v] + 1;
                 queue.push(w);

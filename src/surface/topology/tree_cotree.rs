@@ -4,6 +4,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use crate::sparse::Lists;
 use crate::surface::edges::Edges;
 use crate::surface::{Faces, UnionFind};
 
@@ -25,9 +26,8 @@ pub struct EdgeGraph<'a> {
     pub loops: Vec<u32>,
     /// The length of each edge.
     pub length: Vec<f64>,
-    offsets: Vec<u32>,
-    incident: Vec<u32>,
-    neighbour: Vec<u32>,
+    incident: Lists,
+    neighbour: Lists,
 }
 
 impl<'a> EdgeGraph<'a> {
@@ -48,29 +48,11 @@ impl<'a> EdgeGraph<'a> {
         loops.sort_unstable();
         loops.dedup();
 
-        let inner = || (0..edges.len()).filter(|&e| edges.corners(e).len() == 2);
-        let mut offsets = vec![0u32; nodes + 1];
-        for e in inner() {
-            for v in edges.ends[e] {
-                offsets[node[v as usize] as usize + 1] += 1;
-            }
-        }
-        for n in 0..nodes {
-            offsets[n + 1] += offsets[n];
-        }
-        let mut incident = vec![0; offsets[nodes] as usize];
-        let mut neighbour = vec![0; offsets[nodes] as usize];
-        let mut cursor = offsets.clone();
-        for e in inner() {
-            let [a, b] = edges.ends[e].map(|v| node[v as usize]);
-            for (from, to) in [(a, b), (b, a)] {
-                let slot = &mut cursor[from as usize];
-                incident[*slot as usize] = e as u32;
-                neighbour[*slot as usize] = to;
-                *slot += 1;
-            }
-        }
-        EdgeGraph { faces, edges, node, nodes, loops, length, offsets, incident, neighbour }
+        let inner = (0..edges.len()).filter(|&e| edges.corners(e).len() == 2);
+        let ends = inner.map(|e| (e as u32, edges.ends[e].map(|v| node[v as usize])));
+        let incident = Lists::new(nodes, ends.clone().flat_map(|(e, [a, b])| [(a, e), (b, e)]));
+        let neighbour = Lists::new(nodes, ends.flat_map(|(_, [a, b])| [(a, b), (b, a)]));
+        EdgeGraph { faces, edges, node, nodes, loops, length, incident, neighbour }
     }
 
     /// The nodes at the ends of edge `e`.
@@ -86,16 +68,12 @@ impl<'a> EdgeGraph<'a> {
 
     /// The inner edges at node `n`; an edge from the node to itself occurs twice.
     pub fn edges_at(&self, n: u32) -> &[u32] {
-        &self.incident[self.around(n)]
+        self.incident.of(n)
     }
 
     /// The nodes across the edges of [`Self::edges_at`], in the same order.
     pub fn neighbours(&self, n: u32) -> &[u32] {
-        &self.neighbour[self.around(n)]
-    }
-
-    fn around(&self, n: u32) -> std::ops::Range<usize> {
-        self.offsets[n as usize] as usize..self.offsets[n as usize + 1] as usize
+        self.neighbour.of(n)
     }
 
     /// Whether edge `e` has a face on both sides.
