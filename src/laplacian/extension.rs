@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use super::{ConformalLaplacian, Work};
+use crate::geometry::maximum::max_or_nan;
 use crate::quad_graph::QuadGraph;
 use crate::sparse::Lists;
 
@@ -128,8 +129,7 @@ impl ConformalLaplacian {
             let r = size(f - g - Complex64::I * quad.rho * (j - i));
             let scale = size(f) + size(g) + size(quad.rho) * (size(j) + size(i));
             let relative = if r == 0.0 { 0.0 } else { r / scale };
-            // `f64::max` would pass over a NaN.
-            if worst >= relative || f64::is_nan(worst) { worst } else { relative }
+            max_or_nan(worst, relative)
         })
     }
 }

@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use crate::constraint::{ConstraintError, Elimination, Fixed};
 use crate::energy::conformal::{self, NonPositiveRho, Weight};
+use crate::geometry::maximum::max_or_nan;
 use crate::quad_graph::QuadGraph;
 
 /// The problem of minimising H over the maps with some vertices pinned. If just enough are pinned,
@@ -80,10 +81,7 @@ impl<'a> LinearProblem<'a> {
     /// Integral weights if some Re ρ ≤ 0.
     pub fn residual(&self, z: &[Complex64]) -> Result<f64, NonPositiveRho> {
         let graph = self.graph;
-        let worst = |ratios: &mut dyn Iterator<Item = f64>| {
-            // `f64::max` would ignore a NaN.
-            ratios.fold(0.0, |a: f64, b| if a.is_nan() || a >= b { a } else { b })
-        };
+        let worst = |ratios: &mut dyn Iterator<Item = f64>| ratios.fold(0.0, max_or_nan);
         if self.is_square() {
             return Ok(worst(&mut (0..graph.quads.len()).map(|q| {
                 let [z0, z1, z2, z3] = graph.quads[q].map(|v| z[v as usize].norm());

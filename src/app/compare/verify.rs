@@ -4,6 +4,7 @@
 use num_complex::Complex64;
 
 use crate::app::compare::libigl::{Environment, Harmonic, LibiglError, harmonic};
+use crate::geometry::maximum::max_or_nan;
 use crate::map::{Boundary, Domain, Map, MapError, MapOptions};
 use crate::solver::{Observer, Phase};
 use crate::surface::Surface;
@@ -96,13 +97,11 @@ pub fn compare(ours: &CotanMap, libigl: &Environment) -> Result<Comparison, Veri
     let triangles: Vec<[u32; 3]> = disc.faces.iter().filter_map(|t| t.try_into().ok()).collect();
     let theirs = harmonic(libigl, &disc.positions, &triangles, &disc.boundary, &values)?;
     let distance = |(z, w): (&Complex64, &[f64; 2])| (z - Complex64::new(w[0], w[1])).norm();
-    // `f64::max` would pass over a NaN.
-    let worst = |a: f64, b: f64| if a.is_nan() || a >= b { a } else { b };
     Ok(Comparison {
         vertices: disc.positions.len(),
         interior_edges: theirs.interior_edges,
         negative_weights: theirs.negative_weights,
-        difference: map.z.iter().zip(&theirs.uv).map(distance).fold(0.0, worst),
+        difference: map.z.iter().zip(&theirs.uv).map(distance).fold(0.0, max_or_nan),
         libigl: theirs,
         backend: map.provenance.solver,
     })

@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use crate::constraint::{Elimination, Fixed};
 use crate::energy::conformal::{self, NonPositiveRho, Weight};
+use crate::geometry::maximum::max_or_nan;
 use crate::quad_graph::{Periods, QuadGraph};
 use crate::solver::linear::normal::{assemble, in_real_columns, pattern, real_values, solve_and_refine};
 use crate::solver::{Observer, Phase};
@@ -139,8 +140,7 @@ impl Harmonic {
             let scale = conformal::normal_product_scale_at(graph, &weights, corners);
             for &v in &elimination.free {
                 let relative = product[v as usize].norm() / scale[v as usize].max(f64::MIN_POSITIVE);
-                // `f64::max` would ignore a NaN.
-                residual = if relative <= residual { residual } else { relative };
+                residual = max_or_nan(residual, relative);
             }
         }
         if residual.is_nan() || residual > crate::solver::linear::ACCEPTED_RESIDUAL {
