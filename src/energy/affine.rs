@@ -31,7 +31,7 @@ pub struct Derivatives {
 /// densities.
 pub struct Triangles {
     vertices: Stencils,
-    pieces: Vec<Piece>,
+    pieces: Vec<TrianglePiece>,
 }
 
 impl Triangles {
@@ -46,13 +46,16 @@ impl Triangles {
             return Err(EnergyError::NoArea { energy, face: flat.face, count });
         }
         Ok(Triangles {
-            pieces: triangles.iter().map(|t| Piece::new(t, rest.weight)).collect(),
+            pieces: triangles.iter().map(|t| TrianglePiece::new(t, rest.weight)).collect(),
             vertices: Stencils::new(&triangles.iter().map(|t| t.vertices).collect::<Vec<_>>()),
         })
     }
 
     /// Iterates over the triangles with the positions of their corners.
-    pub(super) fn at<'a>(&'a self, z: &'a [Complex64]) -> impl Iterator<Item = (&'a Piece, [Complex64; 3])> + 'a {
+    pub(super) fn at<'a>(
+        &'a self,
+        z: &'a [Complex64],
+    ) -> impl Iterator<Item = (&'a TrianglePiece, [Complex64; 3])> + 'a {
         self.pieces.iter().enumerate().map(move |(e, piece)| {
             let v = self.vertices.get(e);
             (piece, [v[0], v[1], v[2]].map(|v| z[v as usize]))
@@ -89,7 +92,7 @@ impl Triangles {
 /// In coordinates in which the edge v0 → v1 is 0 → ℓ and v2 is wℓ, `b = c (w e1 − e2)` and `a = c
 /// (e2 − w̄ e1)` with e1 = z1 − z0, e2 = z2 − z0.
 #[derive(Clone, Copy)]
-pub(super) struct Piece {
+pub(super) struct TrianglePiece {
     w: Complex64,
     /// 1/(2i ℓ Im w).
     c: Complex64,
@@ -112,9 +115,9 @@ impl Local {
     }
 }
 
-impl Piece {
+impl TrianglePiece {
     pub fn new(t: &RestTriangle, weight: Weight) -> Self {
-        Piece {
+        TrianglePiece {
             w: t.w,
             c: Complex64::new(0.0, -0.5 / (t.length * t.w.im)),
             per_area: 1.0 / (t.length * t.length * t.w.im),

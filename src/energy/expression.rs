@@ -3,7 +3,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer};
 
-use super::{ENERGIES, Row, energy};
+use super::{ENERGIES, EnergyRow, energy};
 
 /// A sum of energies with coefficients, such as `H + 0.5 L + A`.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +69,7 @@ impl Expression {
     }
 
     /// The table entries of the energies with positive coefficients.
-    pub fn rows(&self) -> impl Iterator<Item = &'static Row> + '_ {
+    pub fn rows(&self) -> impl Iterator<Item = &'static EnergyRow> + '_ {
         self.terms.iter().filter(|t| t.coefficient > 0.0).filter_map(|t| energy(t.name))
     }
 }

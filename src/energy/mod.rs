@@ -119,7 +119,7 @@ pub struct Rest<'a> {
 }
 
 /// An entry of the table of energies.
-pub struct Row {
+pub struct EnergyRow {
     /// The name in expressions.
     pub name: &'static str,
     /// A description of one line.
@@ -134,50 +134,50 @@ pub struct Row {
 }
 
 /// The table of all energies.
-pub static ENERGIES: &[Row] = &[
-    Row {
+pub static ENERGIES: &[EnergyRow] = &[
+    EnergyRow {
         name: "H",
         about: "conformal: Σ w |z3 − z1 − iρ(z2 − z0)|²",
         metric: false,
         flip_free: false,
         make: |rest| Ok(Box::new(Conformal::new(rest)?)),
     },
-    Row {
+    EnergyRow {
         name: "C",
         about: "circle: Σ over free boundary vertices (|z|² − 1)²",
         metric: false,
         flip_free: false,
         make: |rest| Ok(Box::new(Circle::new(rest))),
     },
-    Row {
+    EnergyRow {
         name: "A",
         about: "authalic: Σ over quads (area² − rest area²)²",
         metric: true,
         flip_free: false,
         make: |rest| Ok(Box::new(Authalic::new(rest)?)),
     },
-    Row {
+    EnergyRow {
         name: "L",
         about: "metric: Σ over edges of the quad graph (|zi − zj|² − |vi − vj|²)²",
         metric: true,
         flip_free: false,
         make: |rest| Ok(Box::new(Metric::all_edges(rest)?)),
     },
-    Row {
+    EnergyRow {
         name: "Lb",
         about: "L': as L, over the boundary edges",
         metric: true,
         flip_free: false,
         make: |rest| Ok(Box::new(Metric::boundary_edges(rest))),
     },
-    Row {
+    EnergyRow {
         name: "MIPS",
         about: "conformal without folds: Σ over triangles (quads: their corners) ½(σ1/σ2 + σ2/σ1) − 1; +∞ where one is turned over",
         metric: false,
         flip_free: true,
         make: |rest| Ok(Box::new(Mips::new(rest)?)),
     },
-    Row {
+    EnergyRow {
         name: "SD",
         about: "isometric without folds: Σ over triangles (quads: their corners) σ1² + σ2² + σ1⁻² + σ2⁻² − 4, the symmetric Dirichlet energy",
         metric: true,
@@ -187,6 +187,6 @@ pub static ENERGIES: &[Row] = &[
 ];
 
 /// Returns the table entry of the energy with this name.
-pub fn energy(name: &str) -> Option<&'static Row> {
+pub fn energy(name: &str) -> Option<&'static EnergyRow> {
     ENERGIES.iter().find(|row| row.name == name)
 }

@@ -8,7 +8,7 @@ use super::{style, text};
 
 /// The position of a text's reference point along it.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Anchor {
+pub(super) enum TextAnchor {
     Start,
     Middle,
     End,
@@ -16,14 +16,14 @@ pub(super) enum Anchor {
 
 /// A shape on paper. Coordinates are pixels, y downward.
 #[derive(Clone, Debug)]
-pub(super) enum Shape {
+pub(super) enum VectorShape {
     /// A polygon filled by the nonzero rule; the stroke is centred on the outline.
     Polygon { points: Vec<[f64; 2]>, fill: Colour, stroke: Option<(Colour, f64)> },
     /// Separate line segments in one style, with round ends or with ends cut at the end points.
     Segments { segments: Vec<[[f64; 2]; 2]>, colour: Colour, width: f64, round: bool },
     /// A text. `middle` is its reference point at half the height of capitals; `upward` rotates it
     /// by 90°.
-    Text { middle: [f64; 2], anchor: Anchor, size: f64, upward: bool, text: String },
+    Text { middle: [f64; 2], anchor: TextAnchor, size: f64, upward: bool, text: String },
     /// A PNG file stretched over a rectangle. Used for SVG only: for PNG, pictures are drawn on the
     /// pixels.
     Picture { corner: [f64; 2], size: [f64; 2], png: Vec<u8> },
@@ -32,17 +32,17 @@ pub(super) enum Shape {
 /// Shapes on a sheet, later ones over earlier ones. Both output formats are made from it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Drawing {
-    pub(super) shapes: Vec<Shape>,
+    pub(super) shapes: Vec<VectorShape>,
 }
 
 impl Drawing {
     pub(super) fn rectangle(&mut self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2], fill: Colour) {
         let points = vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
-        self.shapes.push(Shape::Polygon { points, fill, stroke: None });
+        self.shapes.push(VectorShape::Polygon { points, fill, stroke: None });
     }
 
     pub(super) fn line(&mut self, a: [f64; 2], b: [f64; 2]) {
-        self.shapes.push(Shape::Segments {
+        self.shapes.push(VectorShape::Segments {
             segments: vec![[a, b]],
             colour: style::INK,
             width: style::LINE,
@@ -51,7 +51,7 @@ impl Drawing {
     }
 
     pub(super) fn stroke(&mut self, a: [f64; 2], b: [f64; 2], colour: Colour, width: f64) {
-        self.shapes.push(Shape::Segments { segments: vec![[a, b]], colour, width, round: false });
+        self.shapes.push(VectorShape::Segments { segments: vec![[a, b]], colour, width, round: false });
     }
 
     pub(super) fn frame(&mut self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) {
@@ -63,16 +63,22 @@ impl Drawing {
             [[x0, y0], [x0, y1]],
             [[x1, y0], [x1, y1]],
         ];
-        self.shapes.push(Shape::Segments { segments, colour: style::INK, width: style::LINE, round: false });
+        self.shapes.push(VectorShape::Segments { segments, colour: style::INK, width: style::LINE, round: false });
     }
 
-    pub(super) fn text(&mut self, middle: [f64; 2], anchor: Anchor, size: f64, text: impl Into<String>) {
-        self.shapes.push(Shape::Text { middle, anchor, size, upward: false, text: text.into() });
+    pub(super) fn text(&mut self, middle: [f64; 2], anchor: TextAnchor, size: f64, text: impl Into<String>) {
+        self.shapes.push(VectorShape::Text { middle, anchor, size, upward: false, text: text.into() });
     }
 
     /// Draws text rotated to run upward, centred at `middle`.
     pub(super) fn upward(&mut self, middle: [f64; 2], size: f64, text: impl Into<String>) {
-        self.shapes.push(Shape::Text { middle, anchor: Anchor::Middle, size, upward: true, text: text.into() });
+        self.shapes.push(VectorShape::Text {
+            middle,
+            anchor: TextAnchor::Middle,
+            size,
+            upward: true,
+            text: text.into(),
+        });
     }
 
     /// Renders the drawing as an SVG file on white paper.
@@ -102,9 +108,9 @@ impl Drawing {
     }
 }
 
-fn write_svg(svg: &mut String, shape: &Shape) -> std::fmt::Result {
+fn write_svg(svg: &mut String, shape: &VectorShape) -> std::fmt::Result {
     match shape {
-        Shape::Polygon { points, fill, stroke } => {
+        VectorShape::Polygon { points, fill, stroke } => {
             write!(svg, "<polygon fill=\"{fill}\"")?;
             if let Some((colour, width)) = stroke {
                 write!(svg, " stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linejoin=\"round\"")?;
@@ -115,7 +121,7 @@ fn write_svg(svg: &mut String, shape: &Shape) -> std::fmt::Result {
             }
             svg.push_str("\"/>\n");
         }
-        Shape::Segments { segments, colour, width, round } => {
+        VectorShape::Segments { segments, colour, width, round } => {
             write!(svg, "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"")?;
             svg.push_str(if *round { "round\" d=\"" } else { "butt\" d=\"" });
             for [a, b] in segments {
@@ -123,11 +129,11 @@ fn write_svg(svg: &mut String, shape: &Shape) -> std::fmt::Result {
             }
             svg.push_str("\"/>\n");
         }
-        Shape::Text { middle, anchor, size, upward, text } => {
+        VectorShape::Text { middle, anchor, size, upward, text } => {
             let anchor = match anchor {
-                Anchor::Start => "start",
-                Anchor::Middle => "middle",
-                Anchor::End => "end",
+                TextAnchor::Start => "start",
+                TextAnchor::Middle => "middle",
+                TextAnchor::End => "end",
             };
             let [x, y] = middle.map(Decimal);
             // The baseline is computed here, because viewers disagree about dominant-baseline.
@@ -136,7 +142,7 @@ fn write_svg(svg: &mut String, shape: &Shape) -> std::fmt::Result {
             write!(svg, "<text transform=\"translate({x} {y}){turn}\" y=\"{shift}\" font-size=\"{size}\" ")?;
             writeln!(svg, "text-anchor=\"{anchor}\" fill=\"{}\">{}</text>", style::INK, escaped(text))?;
         }
-        Shape::Picture { corner, size, png } => {
+        VectorShape::Picture { corner, size, png } => {
             let [x, y] = corner.map(Decimal);
             write!(svg, "<image x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"{}\" ", Decimal(size[0]), Decimal(size[1]))?;
             svg.push_str("preserveAspectRatio=\"none\" href=\"data:image/png;base64,");
@@ -172,10 +178,10 @@ fn escaped(text: &str) -> String {
     xml
 }
 
-fn paint(sheet: &mut Pixmap, shape: &Shape, zoom: Transform) {
+fn paint(sheet: &mut Pixmap, shape: &VectorShape, zoom: Transform) {
     let mut path = PathBuilder::new();
     match shape {
-        Shape::Polygon { points, fill, stroke } => {
+        VectorShape::Polygon { points, fill, stroke } => {
             for (i, [x, y]) in points.iter().enumerate() {
                 if i == 0 { path.move_to(*x as f32, *y as f32) } else { path.line_to(*x as f32, *y as f32) }
             }
@@ -187,7 +193,7 @@ fn paint(sheet: &mut Pixmap, shape: &Shape, zoom: Transform) {
                 sheet.stroke_path(&path, &solid(*colour), &stroke, zoom, None);
             }
         }
-        Shape::Segments { segments, colour, width, round } => {
+        VectorShape::Segments { segments, colour, width, round } => {
             for [a, b] in segments {
                 path.move_to(a[0] as f32, a[1] as f32);
                 path.line_to(b[0] as f32, b[1] as f32);
@@ -197,11 +203,11 @@ fn paint(sheet: &mut Pixmap, shape: &Shape, zoom: Transform) {
             let stroke = Stroke { width: *width as f32, line_cap, ..Stroke::default() };
             sheet.stroke_path(&path, &solid(*colour), &stroke, zoom, None);
         }
-        Shape::Text { middle, anchor, size, upward, text } => {
+        VectorShape::Text { middle, anchor, size, upward, text } => {
             let back = match anchor {
-                Anchor::Start => 0.0,
-                Anchor::Middle => 0.5,
-                Anchor::End => 1.0,
+                TextAnchor::Start => 0.0,
+                TextAnchor::Middle => 0.5,
+                TextAnchor::End => 1.0,
             };
             let (along, below) = (-back * text::width(text, *size), text::CAP_HEIGHT / 2.0 * size);
             text::outlines(text, *size, &mut path);
@@ -213,7 +219,7 @@ fn paint(sheet: &mut Pixmap, shape: &Shape, zoom: Transform) {
                 .post_concat(zoom);
             sheet.fill_path(&path, &solid(style::INK), FillRule::Winding, place, None);
         }
-        Shape::Picture { .. } => {}
+        VectorShape::Picture { .. } => {}
     }
 }
 

@@ -1,5 +1,4 @@
-use super::page::Page;
-use super::{FigureError, Format, style};
+use super::FigureError;
 use crate::surface::Faces;
 
 /// A planar map drawn face by face, coloured by one number per face.
@@ -28,19 +27,6 @@ pub struct FlatMap<'a> {
 }
 
 impl FlatMap<'_> {
-    /// Renders the picture to the bytes of a file.
-    ///
-    /// # Errors
-    /// Every variant of [`FigureError`] but `UnknownFormat`: inconsistent sizes, indices out of
-    /// range, or coordinates that cannot be drawn.
-    pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
-        let page = Page::of(self, style::PLOT)?;
-        match format {
-            Format::Png => page.to_png(),
-            Format::Svg => page.to_svg().map(String::into_bytes),
-        }
-    }
-
     /// Checks the data and returns the bounding box of all faces.
     pub(super) fn bounds(&self) -> Result<([f64; 2], [f64; 2]), FigureError> {
         let faces = self.faces.len();

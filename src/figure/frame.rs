@@ -1,4 +1,4 @@
-use super::drawing::{Anchor, Drawing};
+use super::drawing::{Drawing, TextAnchor};
 use super::scale::{decimals_of, exponent_label};
 use super::{FigureError, style, text};
 
@@ -104,13 +104,13 @@ impl Frame {
             if x - half >= free_from {
                 free_from = x + half + 0.6 * style::SMALL_TEXT;
                 let y = bottom + style::TICK + style::GAP + style::SMALL_TEXT / 2.0;
-                drawing.text([x, y], Anchor::Middle, style::SMALL_TEXT, label);
+                drawing.text([x, y], TextAnchor::Middle, style::SMALL_TEXT, label);
             }
         }
         for (at, label) in self.ticks(1) {
             let y = top + at.round();
             drawing.line([left - style::TICK, y], [left, y]);
-            drawing.text([left - style::TICK - style::GAP, y], Anchor::End, style::SMALL_TEXT, label);
+            drawing.text([left - style::TICK - style::GAP, y], TextAnchor::End, style::SMALL_TEXT, label);
         }
     }
 }

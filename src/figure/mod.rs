@@ -8,16 +8,16 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `flat.rs` | [`FlatMap`]: the data of a flat map, and its checks |
-//! | `page.rs` | layout; the order in which faces, edges and flipped faces are drawn, on vectors or pixels |
+//! | `flat_page.rs` | layout; the order in which faces, edges and flipped faces are drawn, on vectors or pixels |
 //! | `scale.rs`, `colour.rs` | values → [0, 1] → colours, and the tick marks of a scale |
-//! | `frame.rs`, `bar.rs` | plane → paper with equal units on both axes, coordinates; colour bar and legend |
+//! | `frame.rs`, `colour_bar.rs` | plane → paper with equal units on both axes, coordinates; colour bar and legend |
 //! | `outline.rs` | the edges of the mesh, and which of them are its boundary |
 //! | `drawing.rs` | vector shapes and text, written as SVG or painted on a picture |
-//! | `plot*.rs` | [`Plot`]: series of points on linear or logarithmic axes, laid out by plotters on a `Drawing` |
+//! | `plot/` | [`Plot`]: series of points on linear or logarithmic axes, laid out by plotters on a `Drawing` |
 //! | `view/` | [`SurfaceView`]: a surface in space, shaded, with a checkerboard on it |
 //! | `pair.rs` | [`Pair`]: a map and its surface side by side |
-//! | `diagram.rs` | [`Diagram`]: points, lines and labels that explain |
-//! | `sheet.rs`, `palette.rs` | finished pictures on one sheet; small copies in 256 colours |
+//! | `schematic.rs` | [`Diagram`]: points, lines and labels that explain |
+//! | `composition.rs`, `palette.rs` | finished pictures on one sheet; small copies in 256 colours |
 //! | `raster.rs` | polygons → pixels by supersampling; PNG |
 //! | `text.rs`, `style.rs` | the embedded font; colours and sizes that all figures share |
 //!
@@ -40,20 +40,20 @@
 //! # Ok::<(), riemap::figure::FigureError>(())
 //! ```
 
-mod bar;
 mod colour;
-mod diagram;
+mod colour_bar;
+mod composition;
 mod drawing;
 mod flat;
+mod flat_page;
 mod frame;
 mod outline;
-mod page;
 mod pair;
 mod palette;
 mod plot;
 mod raster;
 mod scale;
-mod sheet;
+mod schematic;
 mod style;
 mod text;
 mod view;
@@ -61,12 +61,12 @@ mod view;
 use std::path::{Path, PathBuf};
 
 pub use colour::{Colour, error_colour};
-pub use diagram::{Diagram, Form, Item, LineStyle, Panel};
+pub use composition::{compose, small_copy};
 pub use flat::FlatMap;
 pub use pair::Pair;
 pub use plot::{Axis, Panels, Plot, Reference, Series};
 pub use scale::{Scale, power_of_ten};
-pub use sheet::{compose, small_copy};
+pub use schematic::{Diagram, Form, Item, LineStyle, Panel};
 pub use style::{ALARM, MARK, OVER};
 pub use view::{Camera, Checker, Shading, SurfaceView};
 

@@ -1,7 +1,7 @@
 use tiny_skia::{PixmapPaint, Transform};
 
-use super::drawing::{Anchor, Drawing};
-use super::page::Page;
+use super::drawing::{Drawing, TextAnchor};
+use super::flat_page::FlatPage;
 use super::raster::{blank_sheet, encode_png};
 use super::{FigureError, FlatMap, SurfaceView, style, text};
 
@@ -33,7 +33,7 @@ impl Pair<'_> {
     /// # Errors
     /// Errors of both parts.
     pub fn render(&self) -> Result<Vec<u8>, FigureError> {
-        let left = Page::of(self.flat, self.side)?.sheet(ZOOM)?;
+        let left = FlatPage::of(self.flat, self.side)?.sheet(ZOOM)?;
         let title = if self.view.title.is_empty() { 0.0 } else { 2.0 * style::TITLE_LINE };
         let right =
             self.view.sheet([self.side + 2.0 * style::MARGIN, self.side + 2.0 * style::MARGIN + title], ZOOM)?;
@@ -56,7 +56,7 @@ impl Pair<'_> {
         let mut drawing = Drawing::default();
         for (i, line) in lines.iter().enumerate() {
             let y = f64::from(bottom) + (i as f64 + 0.2) * style::CAPTION_LINE;
-            drawing.text([f64::from(width) / 2.0, y], Anchor::Middle, style::TEXT, line.as_str());
+            drawing.text([f64::from(width) / 2.0, y], TextAnchor::Middle, style::TEXT, line.as_str());
         }
         drawing.paint(&mut sheet, ZOOM);
         encode_png(&sheet, ZOOM as u32)

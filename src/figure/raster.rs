@@ -65,7 +65,7 @@ impl Raster {
 }
 
 /// A finished figure in pixels.
-pub(super) struct Sheet {
+pub(super) struct RenderedSheet {
     pub(super) pixels: Pixmap,
     /// Distance from the upper edge to the centre of the plot area, in units of paper.
     pub(super) middle: f64,

@@ -18,10 +18,10 @@ pub fn atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
 /// A file that is completely written but not yet in its final place. Dropping it removes it.
 pub struct Staged {
     path: PathBuf,
-    content: Content,
+    content: StagedContent,
 }
 
-enum Content {
+enum StagedContent {
     File { temporary: TempPath, target: PathBuf },
     Device(Vec<u8>),
 }
@@ -47,8 +47,8 @@ impl Staged {
     /// [`WriteError::Io`] if the system refuses.
     pub fn publish(self) -> Result<(), WriteError> {
         let published = match self.content {
-            Content::File { temporary, target } => temporary.persist(target).map_err(|e| e.error),
-            Content::Device(bytes) => {
+            StagedContent::File { temporary, target } => temporary.persist(target).map_err(|e| e.error),
+            StagedContent::Device(bytes) => {
                 fs::OpenOptions::new().write(true).open(&self.path).and_then(|mut device| device.write_all(&bytes))
             }
         };
@@ -56,12 +56,12 @@ impl Staged {
     }
 }
 
-fn content(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<Content> {
+fn content(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<StagedContent> {
     let existing = existing(path)?;
     if existing.as_ref().is_some_and(|metadata| !metadata.is_file()) {
         let mut bytes = Vec::new();
         write(&mut bytes)?;
-        return Ok(Content::Device(bytes));
+        return Ok(StagedContent::Device(bytes));
     }
     let target = if existing.is_some() { fs::canonicalize(path)? } else { path.to_owned() };
     // The error is given without the name of the temporary file, which means nothing to the user.
@@ -71,7 +71,7 @@ fn content(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     if let Some(metadata) = existing {
         file.set_permissions(metadata.permissions())?;
     }
-    Ok(Content::File { temporary, target })
+    Ok(StagedContent::File { temporary, target })
 }
 
 /// Checks, as far as possible without writing, whether a file can be written under this name.

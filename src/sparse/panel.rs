@@ -12,21 +12,21 @@ use super::SplitColumns;
 const FORWARD: usize = 4;
 
 /// The dense columns of a supernode, concatenated: its own rows, then the rows below.
-pub(super) struct Panel<'a> {
+pub(super) struct RealPanel<'a> {
     start: usize,
     width: usize,
     rows: &'a [u32],
     values: &'a [f64],
 }
 
-impl<'a> Panel<'a> {
+impl<'a> RealPanel<'a> {
     #[inline(always)]
     pub fn new(nodes: &'a SymbolicSupernodalCholesky<u32>, values: &'a [f64], s: usize) -> Self {
         let node = nodes.supernode(s);
         let width = nodes.supernode_end()[s] as usize - node.start();
         let at = nodes.col_ptr_for_val()[s] as usize;
         let rows = node.pattern();
-        Panel { start: node.start(), width, rows, values: &values[at..][..width * (width + rows.len())] }
+        RealPanel { start: node.start(), width, rows, values: &values[at..][..width * (width + rows.len())] }
     }
 
     fn own(&self) -> std::ops::Range<usize> {

@@ -8,7 +8,7 @@ use faer::sparse::linalg::cholesky::{
 use num_complex::Complex64;
 use pulp::Arch;
 
-use super::panel::Panel;
+use super::panel::RealPanel;
 use super::{Analysis, Breakdown, Columns, Order};
 
 /// The real factorisation `P M Pᵀ = L Lᵀ` by supernodes. A solve from ports to ports involves only
@@ -189,7 +189,7 @@ impl PrunedCholesky {
         // Uses the widest vectors of the processor.
         Arch::new().dispatch(|| {
             for s in supernodes {
-                Panel::new(nodes, &self.values, s as usize).forward(work);
+                RealPanel::new(nodes, &self.values, s as usize).forward(work);
             }
         });
     }
@@ -199,7 +199,7 @@ impl PrunedCholesky {
         let Some(nodes) = self.nodes() else { return };
         Arch::new().dispatch(|| {
             for s in supernodes {
-                Panel::new(nodes, &self.values, s as usize).backward(work);
+                RealPanel::new(nodes, &self.values, s as usize).backward(work);
             }
         });
     }

@@ -318,9 +318,9 @@ mod tests {
     use crate::sparse::Lists;
 
     /// Pseudo-random numbers in [−1, 1) (linear congruential generator).
-    struct Numbers(u64);
+    struct RandomNumbers(u64);
 
-    impl Numbers {
+    impl RandomNumbers {
         fn next(&mut self) -> f64 {
             self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
@@ -330,7 +330,7 @@ mod tests {
     /// Makes a sparse symmetric matrix of n rows whose real part is positive definite, as a lower
     /// triangle and in full.
     fn matrix<T: Entry>(n: usize, seed: u64, entry: impl Fn(f64, f64) -> T) -> (Columns, Vec<T>, Vec<Vec<T>>) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = RandomNumbers(seed);
         let mut full = vec![vec![T::ZERO; n]; n];
         (0..n).for_each(|i| {
             full[i][i] = entry(6.0 + numbers.next(), 3.0 * numbers.next());
@@ -360,7 +360,7 @@ mod tests {
             let (columns, values, full) = matrix(n, n as u64, entry);
             let factor = SymmetricFactor::new(&columns, &values, border).unwrap();
             let mut work = factor.work();
-            let mut numbers = Numbers(9);
+            let mut numbers = RandomNumbers(9);
             let x: Vec<Complex64> = (0..n).map(|_| Complex64::new(numbers.next(), numbers.next())).collect();
             // [[I, Bᵀ], [B, D]] (y, b) = (0, T b) with y = −I⁻¹ Bᵀ b.
             let size = n - border;

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use super::overlap::{Bounds, overlapping};
+use super::overlap::{BoundingBox, overlapping};
 use super::point_edge::{Nearest, PointEdge, first_contact};
 use crate::energy::{Block, Curvature, Energy, Polynomial};
 use crate::geometry::polygon::boundary_crossing;
@@ -115,9 +115,9 @@ impl Clearance {
     /// clearance.
     fn near(&self, z: &[Complex64], times: f64, found: &mut dyn FnMut([usize; 2], &PointEdge)) {
         let (at, n) = (self.places(z), self.boundary.len());
-        let vertices: Vec<Bounds> =
-            (0..n).map(|v| Bounds::of(&[at[v]]).grown(times * self.at_vertex[v].epsilon)).collect();
-        let edges: Vec<Bounds> = (0..n).map(|k| Bounds::of(&[at[k], at[(k + 1) % n]])).collect();
+        let vertices: Vec<BoundingBox> =
+            (0..n).map(|v| BoundingBox::of(&[at[v]]).grown(times * self.at_vertex[v].epsilon)).collect();
+        let edges: Vec<BoundingBox> = (0..n).map(|k| BoundingBox::of(&[at[k], at[(k + 1) % n]])).collect();
         overlapping(&vertices, &edges, &mut |v, k| {
             if let Some(place) = self.outside(&at, [v, k])
                 && place.distance < times * self.reach([v, k]).epsilon
@@ -218,9 +218,9 @@ impl Energy for Clearance {
     fn largest_step(&self, z: &[Complex64], d: &[Complex64]) -> f64 {
         let (at, moves, n) = (self.places(z), self.places(d), self.boundary.len());
         let end: Vec<Complex64> = at.iter().zip(&moves).map(|(z, d)| z + d).collect();
-        let vertices: Vec<Bounds> = (0..n).map(|v| Bounds::of(&[at[v], end[v]])).collect();
-        let swept = |k: usize| Bounds::of(&[at[k], at[(k + 1) % n], end[k], end[(k + 1) % n]]);
-        let edges: Vec<Bounds> = (0..n).map(swept).collect();
+        let vertices: Vec<BoundingBox> = (0..n).map(|v| BoundingBox::of(&[at[v], end[v]])).collect();
+        let swept = |k: usize| BoundingBox::of(&[at[k], at[(k + 1) % n], end[k], end[(k + 1) % n]]);
+        let edges: Vec<BoundingBox> = (0..n).map(swept).collect();
         let mut first = f64::INFINITY;
         overlapping(&vertices, &edges, &mut |v, k| {
             let [v, a, b] = self.corners(v, k);

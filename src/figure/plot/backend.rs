@@ -7,7 +7,7 @@ use plotters_backend::{
 };
 
 use crate::figure::colour::Colour;
-use crate::figure::drawing::{Anchor, Drawing, Shape};
+use crate::figure::drawing::{Drawing, TextAnchor, VectorShape};
 use crate::figure::{style, text};
 
 /// Units of plotters' integer coordinates per pixel of paper: plots are positioned to a sixteenth
@@ -18,7 +18,7 @@ type Done = Result<(), DrawingErrorKind<Infallible>>;
 
 /// A backend with which plotters draws on a [`Drawing`], so that plots have the font, the SVG
 /// output and the anti-aliasing of all figures.
-pub(super) struct Sheet<'a> {
+pub(super) struct PlotSheet<'a> {
     pub(super) drawing: &'a mut Drawing,
     /// Size in pixels of paper.
     pub(super) size: [f64; 2],
@@ -40,17 +40,17 @@ fn colour(BackendColor { alpha, rgb: (r, g, b) }: BackendColor) -> Colour {
     Colour([mix(r, paper[0]), mix(g, paper[1]), mix(b, paper[2])])
 }
 
-impl Sheet<'_> {
+impl PlotSheet<'_> {
     fn segments(&mut self, points: impl IntoIterator<Item = BackendCoord>, colour: Colour, width: u32) {
         let points: Vec<[f64; 2]> = points.into_iter().map(place).collect();
         let segments = points.windows(2).map(|w| [w[0], w[1]]).collect();
         // Curves have round ends and joints; axes and grid lines are cut at their ends.
         let round = points.len() > 2;
-        self.drawing.shapes.push(Shape::Segments { segments, colour, width: f64::from(width) / FINE, round });
+        self.drawing.shapes.push(VectorShape::Segments { segments, colour, width: f64::from(width) / FINE, round });
     }
 }
 
-impl DrawingBackend for Sheet<'_> {
+impl DrawingBackend for PlotSheet<'_> {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {
@@ -93,16 +93,16 @@ impl DrawingBackend for Sheet<'_> {
 
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Done {
         let points = path.into_iter().map(place).collect();
-        self.drawing.shapes.push(Shape::Polygon { points, fill: colour(style.color()), stroke: None });
+        self.drawing.shapes.push(VectorShape::Polygon { points, fill: colour(style.color()), stroke: None });
         Ok(())
     }
 
     fn draw_text<T: BackendTextStyle>(&mut self, text: &str, style: &T, at: BackendCoord) -> Done {
         let size = style.size() / FINE;
         let anchor = match style.anchor().h_pos {
-            HPos::Left => Anchor::Start,
-            HPos::Center => Anchor::Middle,
-            HPos::Right => Anchor::End,
+            HPos::Left => TextAnchor::Start,
+            HPos::Center => TextAnchor::Middle,
+            HPos::Right => TextAnchor::End,
         };
         let below = match style.anchor().v_pos {
             VPos::Top => size / 2.0,
@@ -113,7 +113,7 @@ impl DrawingBackend for Sheet<'_> {
         let upward = matches!(style.transform(), FontTransform::Rotate270);
         // The top of a text that runs upward is its left side.
         let middle = if upward { [x + below, y] } else { [x, y + below] };
-        self.drawing.shapes.push(Shape::Text { middle, anchor, size, upward, text: text.to_owned() });
+        self.drawing.shapes.push(VectorShape::Text { middle, anchor, size, upward, text: text.to_owned() });
         Ok(())
     }
 

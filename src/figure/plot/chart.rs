@@ -3,29 +3,21 @@ use plotters::drawing::IntoDrawingArea;
 use plotters::series::{DashedLineSeries, LineSeries};
 use plotters::style::{Color, IntoFont, RGBColor, ShapeStyle};
 
-use super::{Panels, Plot};
 use crate::figure::colour::Colour;
 use crate::figure::drawing::Drawing;
 use crate::figure::plot::axis::Ruler;
-use crate::figure::plot::backend::{Sheet, fine, place};
-use crate::figure::plot::layout::Layout;
+use crate::figure::plot::backend::{PlotSheet, fine, place};
+use crate::figure::plot::layout::{CURVE, PlotLayout, REFERENCE, REFERENCE_COLOUR, TICK};
 use crate::figure::plot::marker::{Marker, some_of};
-use crate::figure::plot::medians;
+use crate::figure::plot::series::{Panels, Plot, medians};
 use crate::figure::raster::{blank_sheet, encode_png};
 use crate::figure::{FigureError, Format, style};
 
-/// Width of the lines between points.
-pub(super) const CURVE: f64 = 3.0;
-/// Width, dash length and gap length of reference lines.
-pub(super) const REFERENCE: [f64; 3] = [2.5, 12.0, 8.0];
-/// Length of a tick, and distance from it to its label.
-pub(super) const TICK: f64 = 8.0;
 /// Colours of grid lines with and without a label.
 const GRID: [Colour; 2] = [Colour([206, 208, 212]), Colour([234, 235, 238])];
-pub(super) const REFERENCE_COLOUR: Colour = Colour([110, 112, 118]);
 
 /// The visible points of a series, in order of x.
-struct Points {
+struct VisiblePoints {
     /// Its index in the legend.
     place: usize,
     at: Vec<[f64; 2]>,
@@ -33,8 +25,8 @@ struct Points {
 }
 
 /// The points and reference lines of a panel.
-struct Content {
-    points: Vec<Points>,
+struct PanelContent {
+    points: Vec<VisiblePoints>,
     lines: Vec<[[f64; 2]; 2]>,
 }
 
@@ -45,8 +37,8 @@ pub(super) fn render(panels: &Panels, format: Format) -> Result<Vec<u8>, FigureE
             series.push(label);
         }
     }
-    let contents: Vec<Content> =
-        panels.plots.iter().map(|plot| Content::of(plot, &series)).collect::<Result<_, _>>()?;
+    let contents: Vec<PanelContent> =
+        panels.plots.iter().map(|plot| PanelContent::of(plot, &series)).collect::<Result<_, _>>()?;
     let columns = panels.columns.clamp(1, panels.plots.len().max(1));
     // The panels of a column share the x axis, those of a row the y axis.
     let in_column = |c: usize| panels.plots.iter().zip(&contents).skip(c).step_by(columns);
@@ -71,10 +63,10 @@ pub(super) fn render(panels: &Panels, format: Format) -> Result<Vec<u8>, FigureE
     }
 
     let mut drawing = Drawing::default();
-    let layout = Layout::new(panels, &series, &y);
+    let layout = PlotLayout::new(panels, &series, &y);
     for (k, (plot, content)) in panels.plots.iter().zip(&contents).enumerate() {
         let (row, column) = (k / columns, k % columns);
-        let inner = Panel {
+        let inner = PanelPlace {
             corner: layout.corner(k),
             has_x_labels: k + columns >= contents.len(),
             has_y_labels: column == 0,
@@ -100,8 +92,8 @@ pub(super) fn render(panels: &Panels, format: Format) -> Result<Vec<u8>, FigureE
     }
 }
 
-impl Content {
-    fn of(plot: &Plot, series: &[&str]) -> Result<Content, FigureError> {
+impl PanelContent {
+    fn of(plot: &Plot, series: &[&str]) -> Result<PanelContent, FigureError> {
         for reference in &plot.references {
             if reference.slope != 0.0 && !(plot.x.log && plot.y.log) {
                 return Err(FigureError::Slope { label: reference.label.clone() });
@@ -109,8 +101,8 @@ impl Content {
         }
         let place = |label: &str| series.iter().position(|s| *s == label).unwrap_or_default();
         let visible = plot.series.iter().zip(plot.visible());
-        let points = visible.map(|(s, at)| Points { place: place(&s.label), at, cloud: s.cloud }).collect();
-        let mut content = Content { points, lines: Vec::new() };
+        let points = visible.map(|(s, at)| VisiblePoints { place: place(&s.label), at, cloud: s.cloud }).collect();
+        let mut content = PanelContent { points, lines: Vec::new() };
         let all: Vec<[f64; 2]> = content.points.iter().flat_map(|points| &points.at).copied().collect();
         let ends =
             [all.iter().map(|p| p[0]).fold(f64::INFINITY, f64::min), all.iter().map(|p| p[0]).fold(0.0, f64::max)];
@@ -132,7 +124,7 @@ fn stroke(Colour([r, g, b]): Colour, width: f64) -> ShapeStyle {
 }
 
 /// The position of a panel and its labels.
-struct Panel {
+struct PanelPlace {
     corner: [f64; 2],
     has_x_labels: bool,
     has_y_labels: bool,
@@ -143,14 +135,14 @@ struct Panel {
 /// positions.
 fn chart(
     plot: &Plot,
-    content: &Content,
+    content: &PanelContent,
     (x, y): (Ruler, Ruler),
-    layout: &Layout,
-    panel: &Panel,
+    layout: &PlotLayout,
+    panel: &PanelPlace,
     drawing: &mut Drawing,
 ) -> Result<Vec<(Marker, [f64; 2])>, FigureError> {
     let (corner, area, size) = (panel.corner, layout.area, layout.size);
-    let root = Sheet { drawing, size }.into_drawing_area();
+    let root = PlotSheet { drawing, size }.into_drawing_area();
     // Labels of axes shared by panels are drawn elsewhere.
     let below = size[1] - style::MARGIN - corner[1] - area[1];
     let below = if panel.is_single { below } else { 2.0 * TICK + style::SMALL_TEXT + style::GAP };
@@ -183,13 +175,13 @@ fn chart(
         let style = stroke(REFERENCE_COLOUR, width);
         chart.draw_series(DashedLineSeries::new(ends, fine(dash).unsigned_abs(), fine(gap).unsigned_abs(), style))?;
     }
-    for Points { place, at, .. } in content.points.iter().filter(|points| !points.cloud) {
+    for VisiblePoints { place, at, .. } in content.points.iter().filter(|points| !points.cloud) {
         let curve = stroke(Marker::of(*place).colour, CURVE);
         chart.draw_series(LineSeries::new(medians(at).into_iter().map(|p| (p[0], p[1])), curve))?;
     }
     let area = chart.plotting_area();
     let mut markers = Vec::new();
-    for Points { place: i, at, cloud } in &content.points {
+    for VisiblePoints { place: i, at, cloud } in &content.points {
         let places: Vec<[f64; 2]> = at.iter().map(|p| place(area.map_coordinate(&(p[0], p[1])))).collect();
         let is_curve = !cloud && medians(at).len() == at.len();
         let places = if is_curve { some_of(*i, &places) } else { places };

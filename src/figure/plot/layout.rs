@@ -1,13 +1,20 @@
 //! The positions of the parts of a plot on its sheet, and its legend.
 
-use super::Panels;
-use crate::figure::drawing::{Anchor, Drawing};
-use crate::figure::plot::Reference;
+use crate::figure::colour::Colour;
+use crate::figure::drawing::{Drawing, TextAnchor};
 use crate::figure::plot::axis::Ruler;
-use crate::figure::plot::chart::{CURVE, REFERENCE, REFERENCE_COLOUR, TICK};
 use crate::figure::plot::marker::{Marker, RADIUS};
+use crate::figure::plot::series::{Panels, Reference};
 use crate::figure::{style, text};
 
+/// Width of the lines between points.
+pub(super) const CURVE: f64 = 3.0;
+/// Width, dash length and gap length of reference lines.
+pub(super) const REFERENCE: [f64; 3] = [2.5, 12.0, 8.0];
+/// Length of a tick, and distance from it to its label.
+pub(super) const TICK: f64 = 8.0;
+/// Colour of reference lines.
+pub(super) const REFERENCE_COLOUR: Colour = Colour([110, 112, 118]);
 /// Size of the plot area within its frame: of a single plot, of two in a row, of more.
 const AREAS: [[f64; 2]; 3] = [[1040.0, 780.0], [760.0, 570.0], [560.0, 440.0]];
 /// Distance between panels.
@@ -23,13 +30,13 @@ const DISTANCE: f64 = 36.0;
 
 /// An entry of the legend; a series has its marker and whether there is a line through it.
 #[derive(Clone, Copy)]
-pub(super) enum Entry<'a> {
+pub(super) enum LegendEntry<'a> {
     Series(&'a str, Marker, bool),
     Reference(&'a str),
 }
 
 /// Positions and sizes in pixels.
-pub(super) struct Layout<'a> {
+pub(super) struct PlotLayout<'a> {
     title: Vec<String>,
     /// Upper left corner of the first panel.
     corner: [f64; 2],
@@ -38,15 +45,15 @@ pub(super) struct Layout<'a> {
     pub(super) size: [f64; 2],
     columns: usize,
     rows: usize,
-    legend: Vec<Entry<'a>>,
+    legend: Vec<LegendEntry<'a>>,
     /// Upper left corner of the first row of the legend.
     legend_corner: [f64; 2],
     legend_rows: usize,
     entry_width: f64,
 }
 
-impl<'a> Layout<'a> {
-    pub(super) fn new(panels: &'a Panels, series: &[&'a str], y: &[Ruler]) -> Layout<'a> {
+impl<'a> PlotLayout<'a> {
+    pub(super) fn new(panels: &'a Panels, series: &[&'a str], y: &[Ruler]) -> PlotLayout<'a> {
         let single = panels.plots.len() == 1;
         let columns = panels.columns.clamp(1, panels.plots.len().max(1));
         let rows = panels.plots.len().div_ceil(columns);
@@ -57,7 +64,7 @@ impl<'a> Layout<'a> {
         let labels = widest(&mut y.iter().flat_map(Ruler::labels), style::SMALL_TEXT);
         let left = style::MARGIN + 1.2 * style::TEXT + style::GAP + labels + 2.0 * TICK;
         let legend = entries(panels, series);
-        let names = widest(&mut legend.iter().map(Entry::label), style::SMALL_TEXT);
+        let names = widest(&mut legend.iter().map(LegendEntry::label), style::SMALL_TEXT);
         let entry_width = DISTANCE + SAMPLE + style::GAP + names;
         let across = columns as f64 * (area[0] + BETWEEN) - BETWEEN;
         let down = rows as f64 * (area[1] + PANEL_TITLE) - PANEL_TITLE;
@@ -84,7 +91,7 @@ impl<'a> Layout<'a> {
             false => [corner[0], top + down + axis + DISTANCE / 2.0],
         };
         let size = [width, height];
-        Layout { title, corner, area, size, columns, rows, legend, legend_corner, legend_rows, entry_width }
+        PlotLayout { title, corner, area, size, columns, rows, legend, legend_corner, legend_rows, entry_width }
     }
 
     /// The upper left corner of the k-th panel.
@@ -102,7 +109,7 @@ impl<'a> Layout<'a> {
         let x = (left + across / 2.0).min(self.size[0] - half).max(half);
         for (i, line) in self.title.iter().enumerate() {
             let y = style::MARGIN + (i as f64 + 0.4) * style::TITLE_LINE;
-            drawing.text([x, y], Anchor::Middle, style::TITLE, line.as_str());
+            drawing.text([x, y], TextAnchor::Middle, style::TITLE, line.as_str());
         }
         if panels.plots.len() == 1 {
             return;
@@ -110,12 +117,12 @@ impl<'a> Layout<'a> {
         for (k, plot) in panels.plots.iter().enumerate() {
             let [x, y] = self.corner(k);
             let line = text::wrap(&plot.title, style::TEXT, self.area[0], 1).pop().unwrap_or_default();
-            drawing.text([x + self.area[0] / 2.0, y - 0.75 * style::TEXT], Anchor::Middle, style::TEXT, line);
+            drawing.text([x + self.area[0] / 2.0, y - 0.75 * style::TEXT], TextAnchor::Middle, style::TEXT, line);
         }
         let down = self.rows as f64 * (self.area[1] + PANEL_TITLE) - PANEL_TITLE;
         if let Some(plot) = panels.plots.first() {
             let below = top + down + 2.0 * TICK + style::SMALL_TEXT + style::GAP + 0.4 * style::TEXT;
-            drawing.text([left + across / 2.0, below], Anchor::Middle, style::TEXT, plot.x.label.as_str());
+            drawing.text([left + across / 2.0, below], TextAnchor::Middle, style::TEXT, plot.x.label.as_str());
             drawing.upward([style::MARGIN + 0.5 * style::TEXT, top + down / 2.0], style::TEXT, plot.y.label.as_str());
         }
     }
@@ -127,13 +134,13 @@ impl<'a> Layout<'a> {
             let x = self.legend_corner[0] + column as f64 * self.entry_width;
             let y = self.legend_corner[1] + RADIUS + (row as f64 + 0.2) * ROW;
             match entry {
-                Entry::Series(_, marker, joined) => {
+                LegendEntry::Series(_, marker, joined) => {
                     if *joined {
                         drawing.stroke([x, y], [x + SAMPLE, y], marker.colour, CURVE);
                     }
                     marker.draw([x + SAMPLE / 2.0, y], drawing);
                 }
-                Entry::Reference(_) => {
+                LegendEntry::Reference(_) => {
                     let [width, dash, gap] = REFERENCE;
                     let mut from = x;
                     while from < x + SAMPLE {
@@ -142,30 +149,31 @@ impl<'a> Layout<'a> {
                     }
                 }
             }
-            drawing.text([x + SAMPLE + style::GAP, y], Anchor::Start, style::SMALL_TEXT, entry.label());
+            drawing.text([x + SAMPLE + style::GAP, y], TextAnchor::Start, style::SMALL_TEXT, entry.label());
         }
     }
 }
 
-impl Entry<'_> {
+impl LegendEntry<'_> {
     fn label(&self) -> &str {
         match self {
-            Entry::Series(label, ..) | Entry::Reference(label) => label,
+            LegendEntry::Series(label, ..) | LegendEntry::Reference(label) => label,
         }
     }
 }
 
 /// Lists the series, then the reference lines; entries common to several panels occur once.
-fn entries<'a>(panels: &'a Panels, series: &[&'a str]) -> Vec<Entry<'a>> {
+fn entries<'a>(panels: &'a Panels, series: &[&'a str]) -> Vec<LegendEntry<'a>> {
     let all = || panels.plots.iter().flat_map(|plot| &plot.series);
     let joined = |label: &str| all().any(|s| s.label == label && !s.cloud);
-    let of_series = series.iter().enumerate().map(|(i, label)| Entry::Series(label, Marker::of(i), joined(label)));
-    let mut entries: Vec<Entry> = of_series.collect();
+    let of_series =
+        series.iter().enumerate().map(|(i, label)| LegendEntry::Series(label, Marker::of(i), joined(label)));
+    let mut entries: Vec<LegendEntry> = of_series.collect();
     let mut known: Vec<&Reference> = Vec::new();
     for reference in panels.plots.iter().flat_map(|plot| &plot.references) {
         if !known.iter().any(|r| r.label == reference.label) {
             known.push(reference);
-            entries.push(Entry::Reference(&reference.label));
+            entries.push(LegendEntry::Reference(&reference.label));
         }
     }
     entries

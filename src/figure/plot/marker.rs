@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::figure::colour::Colour;
-use crate::figure::drawing::{Drawing, Shape};
+use crate::figure::drawing::{Drawing, VectorShape};
 use crate::figure::style;
 
 /// The colours of Okabe and Ito, distinguishable with any colour vision, without yellow, which is
@@ -60,7 +60,7 @@ impl Marker {
         let (fill, outline) = if self.hollow { (style::PAPER, self.colour) } else { (self.colour, style::PAPER) };
         // The outline of a full marker separates it from those it covers.
         let width = if self.hollow { OUTLINE } else { 1.0 };
-        drawing.shapes.push(Shape::Polygon { points, fill, stroke: Some((outline, width)) });
+        drawing.shapes.push(VectorShape::Polygon { points, fill, stroke: Some((outline, width)) });
     }
 }
 

@@ -12,15 +12,15 @@ use tiny_skia::{Pixmap, PixmapPaint, Transform};
 pub use camera::Camera;
 pub use checker::Checker;
 
-use super::drawing::{Anchor, Drawing};
+use super::drawing::{Drawing, TextAnchor};
 use super::outline::edges;
-use super::raster::{SAMPLES, Sheet, blank_sheet, encode_png};
+use super::raster::{RenderedSheet, SAMPLES, blank_sheet, encode_png};
 use super::{FigureError, style, text};
 use crate::surface::Faces;
 use camera::Lens;
 use normals::corner_normals;
 use scene::Scene;
-use shade::{Mark, OUTLINE, Paints, SEAM, Shader, encode};
+use shade::{FaceMark, OUTLINE, Paints, SEAM, Shader, encode};
 
 /// A surface in space with the checkerboard of a map on it.
 ///
@@ -121,7 +121,7 @@ impl<'a> SurfaceView<'a> {
     }
 
     /// Renders the figure on a sheet of at most `size` units, at `zoom` pixels per unit.
-    pub(super) fn sheet(&self, size: [f64; 2], zoom: usize) -> Result<Sheet, FigureError> {
+    pub(super) fn sheet(&self, size: [f64; 2], zoom: usize) -> Result<RenderedSheet, FigureError> {
         let margins = 2.0 * style::MARGIN;
         let room = size[0] - margins;
         let title = text::wrap(self.title, style::TITLE, room, 2);
@@ -137,10 +137,10 @@ impl<'a> SurfaceView<'a> {
         let mut drawing = Drawing::default();
         for (i, line) in title.iter().enumerate() {
             let y = style::MARGIN + (i as f64 + 0.4) * style::TITLE_LINE;
-            drawing.text([width / 2.0, y], Anchor::Middle, style::TITLE, line.as_str());
+            drawing.text([width / 2.0, y], TextAnchor::Middle, style::TITLE, line.as_str());
         }
         drawing.paint(&mut pixels, zoom);
-        Ok(Sheet { pixels, middle: top + down / 2.0 })
+        Ok(RenderedSheet { pixels, middle: top + down / 2.0 })
     }
 
     /// Renders the surface without title, in at most `room` units with `zoom` pixels each.
@@ -169,9 +169,9 @@ impl<'a> SurfaceView<'a> {
 
         let face_area = scene.area() / (unit * unit * self.faces.len() as f64);
         let with_edges = self.edges && face_area > FACE_WITH_EDGES;
-        let mut marks = vec![Mark::None; self.faces.len()];
-        self.reddened.iter().for_each(|f| marks[*f] = Mark::Red);
-        self.marked.iter().for_each(|f| marks[*f] = Mark::Alarm);
+        let mut marks = vec![FaceMark::None; self.faces.len()];
+        self.reddened.iter().for_each(|f| marks[*f] = FaceMark::Red);
+        self.marked.iter().for_each(|f| marks[*f] = FaceMark::Alarm);
         let shader = Shader {
             view: self,
             scene: &scene,

@@ -27,7 +27,7 @@ const EDGE: f64 = 0.55;
 
 /// The marking of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mark {
+pub(super) enum FaceMark {
     None,
     /// The squares are red, light and dark.
     Red,
@@ -45,7 +45,7 @@ pub(super) struct Shader<'a> {
     /// Whether the normals point to the outer side.
     pub(super) outward: bool,
     /// The marking of each face.
-    pub(super) marks: &'a [Mark],
+    pub(super) marks: &'a [FaceMark],
     /// Distance, in samples, up to which a mesh edge is visible; 0 if edges are not drawn.
     pub(super) edges: f64,
     /// Samples per pixel along each axis.
@@ -91,7 +91,7 @@ struct Facet {
     normals: [[f64; 3]; 3],
     /// A factor of the colour.
     tint: [f64; 3],
-    mark: Mark,
+    mark: FaceMark,
     /// Samples per unit of each barycentric coordinate if the edge opposite its corner is an edge
     /// of the mesh.
     edges: [Option<f64>; 3],
@@ -150,7 +150,7 @@ impl Shader<'_> {
     }
 
     fn light(&self, facet: &Facet, column: usize, row: usize) -> [f64; 3] {
-        if facet.mark == Mark::Alarm {
+        if facet.mark == FaceMark::Alarm {
             return self.paints.alarm;
         }
         let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
@@ -159,7 +159,7 @@ impl Shader<'_> {
         let total: f64 = weights.iter().sum();
         weights = weights.map(|w| w / total);
         let square = self.square(facet, weights, total);
-        let [bright, dark] = if facet.mark == Mark::Red { self.paints.red } else { self.paints.squares };
+        let [bright, dark] = if facet.mark == FaceMark::Red { self.paints.red } else { self.paints.squares };
         let colour: [f64; 3] = std::array::from_fn(|k| dark[k] + (bright[k] - dark[k]) * square);
         let normal = (0..3).fold([0.0; 3], |n, i| add(n, scale(weights[i], facet.normals[i])));
         let lit = illumination(normal);

@@ -17,19 +17,19 @@ const REPEAT: u32 = 10497;
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Document {
+pub(super) struct GltfDocument {
     asset: Asset,
     scene: u32,
-    scenes: [Scene; 1],
+    scenes: [GltfScene; 1],
     nodes: [Node; 2],
     meshes: [GltfMesh; 1],
     materials: [Material; 1],
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    textures: Vec<Texture>,
+    textures: Vec<GltfTexture>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     samplers: Vec<Sampler>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    images: Vec<Image>,
+    images: Vec<GltfImage>,
     accessors: Vec<Accessor>,
     buffer_views: Vec<BufferView>,
     buffers: [Buffer; 1],
@@ -42,7 +42,7 @@ struct Asset {
 }
 
 #[derive(Serialize)]
-struct Scene {
+struct GltfScene {
     nodes: [u32; 1],
 }
 
@@ -77,14 +77,14 @@ struct Extras {
 
 #[derive(Serialize)]
 struct Primitive {
-    attributes: Attributes,
+    attributes: GltfAttributes,
     indices: usize,
     material: u32,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
-struct Attributes {
+struct GltfAttributes {
     position: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     normal: Option<usize>,
@@ -114,7 +114,7 @@ struct TextureIndex {
 }
 
 #[derive(Serialize)]
-struct Texture {
+struct GltfTexture {
     sampler: u32,
     source: u32,
 }
@@ -130,7 +130,7 @@ struct Sampler {
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Image {
+struct GltfImage {
     buffer_view: usize,
     mime_type: &'static str,
 }
@@ -168,13 +168,13 @@ struct Buffer {
 
 /// The layout of the buffer: consecutive views and the arrays in them.
 #[derive(Default)]
-struct Layout {
+struct BufferLayout {
     accessors: Vec<Accessor>,
     views: Vec<BufferView>,
     end: usize,
 }
 
-impl Layout {
+impl BufferLayout {
     fn view(&mut self, byte_length: usize, target: Option<u32>) -> usize {
         self.views.push(BufferView { buffer: 0, byte_offset: self.end, byte_length, target });
         self.end += byte_length;
@@ -191,10 +191,10 @@ impl Layout {
     }
 }
 
-impl Document {
+impl GltfDocument {
     /// Describes a file in which the mesh and then the picture of `picture` bytes are written.
-    pub(super) fn new(mesh: &Mesh, model: &Model, picture: usize) -> Document {
-        let mut layout = Layout::default();
+    pub(super) fn new(mesh: &Mesh, model: &Model, picture: usize) -> GltfDocument {
+        let mut layout = BufferLayout::default();
         let position = layout.array(FLOAT, mesh.positions.len(), 3);
         let [low, high] = mesh.bounds().map(|bound| Some(bound.map(f64::from)));
         (layout.accessors[position].min, layout.accessors[position].max) = (low, high);
@@ -202,19 +202,19 @@ impl Document {
         let texcoord_0 = model.map.map(|_| layout.array(FLOAT, mesh.texture.len(), 2));
         let indices = layout.array(UNSIGNED_INT, 3 * mesh.triangles.len(), 1);
         let picture = (picture > 0).then(|| layout.view(picture, None));
-        let images = picture.map(|buffer_view| Image { buffer_view, mime_type: "image/png" });
+        let images = picture.map(|buffer_view| GltfImage { buffer_view, mime_type: "image/png" });
         let sampler = Sampler { mag_filter: LINEAR, min_filter: LINEAR_MIPMAP_LINEAR, wrap_s: REPEAT, wrap_t: REPEAT };
         // A rotation by −90° about the first axis takes z to y.
         let rotation = model.z_up.then_some([-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2]);
         let inverse = model.texture.inverse();
-        Document {
+        GltfDocument {
             asset: Asset { version: "2.0", generator: concat!("riemap ", env!("CARGO_PKG_VERSION")) },
             scene: 0,
-            scenes: [Scene { nodes: [0] }],
+            scenes: [GltfScene { nodes: [0] }],
             nodes: [Node::Outer { children: [1], rotation }, Node::Inner { mesh: 0, translation: mesh.centre }],
             meshes: [GltfMesh {
                 primitives: [Primitive {
-                    attributes: Attributes { position, normal, texcoord_0 },
+                    attributes: GltfAttributes { position, normal, texcoord_0 },
                     indices,
                     material: 0,
                 }],
@@ -228,7 +228,7 @@ impl Document {
                     roughness_factor: 0.8,
                 },
             }],
-            textures: picture.map(|_| Texture { sampler: 0, source: 0 }).into_iter().collect(),
+            textures: picture.map(|_| GltfTexture { sampler: 0, source: 0 }).into_iter().collect(),
             samplers: picture.map(|_| sampler).into_iter().collect(),
             images: images.into_iter().collect(),
             accessors: layout.accessors,

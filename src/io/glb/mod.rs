@@ -15,7 +15,7 @@ mod mesh;
 use std::io::{self, Write};
 
 use crate::surface::Faces;
-use document::Document;
+use document::GltfDocument;
 use mesh::Mesh;
 
 /// A real affine map of the plane, `x ↦ M x + o`.
@@ -118,7 +118,7 @@ impl<'a> Glb<'a> {
     pub fn new(model: &Model<'a>) -> Result<Glb<'a>, GlbError> {
         let mesh = Mesh::new(model)?;
         let picture = model.picture.filter(|_| model.map.is_some()).unwrap_or_default();
-        let mut json = serde_json::to_vec(&Document::new(&mesh, model, picture.len()))?;
+        let mut json = serde_json::to_vec(&GltfDocument::new(&mesh, model, picture.len()))?;
         json.resize(json.len().next_multiple_of(4), b' ');
         let glb = Glb { mesh, picture, json };
         match glb.bytes() {

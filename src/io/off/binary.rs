@@ -1,6 +1,6 @@
 use crate::io::error::{Defect, Fault};
 use crate::io::mesh::{Parsed, mean_normals, push_face};
-use crate::io::off::Attributes;
+use crate::io::off::VertexAttributes;
 use crate::surface::Faces;
 
 /// A variant of the format `OFF BINARY`, which writers interpret differently.
@@ -32,10 +32,10 @@ const DIALECTS: [Dialect; 8] = [
 /// count. The dialect is the first of [`DIALECTS`] in which every number is valid and the data ends
 /// exactly at the end of the file. If none fits, the error is that of the dialect that got
 /// furthest.
-pub(super) fn read(bytes: &[u8], start: usize, attributes: Attributes) -> Result<Parsed, Fault> {
+pub(super) fn read(bytes: &[u8], start: usize, attributes: VertexAttributes) -> Result<Parsed, Fault> {
     let mut furthest: Option<(usize, Fault)> = None;
     for dialect in DIALECTS {
-        let mut body = Body { bytes, position: start, dialect };
+        let mut body = OffBinary { bytes, position: start, dialect };
         match body.read(attributes) {
             Ok(parsed) => return Ok(parsed),
             Err(defect) => {
@@ -49,15 +49,15 @@ pub(super) fn read(bytes: &[u8], start: usize, attributes: Attributes) -> Result
     Err(furthest.map_or_else(|| Fault::whole(Defect::Empty), |(_, fault)| fault))
 }
 
-struct Body<'a> {
+struct OffBinary<'a> {
     bytes: &'a [u8],
     position: usize,
     dialect: Dialect,
 }
 
-impl Body<'_> {
+impl OffBinary<'_> {
     /// Reads counts, vertices and faces. After an error `position` is the offending byte.
-    fn read(&mut self, attributes: Attributes) -> Result<Parsed, Defect> {
+    fn read(&mut self, attributes: VertexAttributes) -> Result<Parsed, Defect> {
         let end = |wanted| Defect::UnexpectedEnd { wanted, what: "header numbers", done: 0, expected: 3 };
         let mut header = || self.word().map(u64::from).ok_or_else(|| end("a count"));
         let (vertices, faces, _edges) = (header()?, header()?, header()?);

@@ -8,7 +8,7 @@ use crate::surface::Faces;
 /// The vertex attributes that the letters before `OFF` declare; they follow the position in this
 /// order.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Attributes {
+pub(super) struct VertexAttributes {
     /// `N`: a normal.
     pub normals: bool,
     /// `C`: a colour, four numbers in binary files.
@@ -25,7 +25,7 @@ struct Counts {
 
 /// The role of line ends.
 #[derive(Clone, Copy, PartialEq)]
-enum Layout {
+enum LineLayout {
     /// A record can begin and break anywhere, but only its colour follows it on the line where it
     /// ends.
     Lines,
@@ -36,7 +36,7 @@ enum Layout {
 /// Reads Geomview OFF, text or binary (<http://www.geomview.org/docs/html/OFF.html>).
 ///
 /// The format is free-form except that the colour of a face, whose length is not declared, ends
-/// with its line. This is [`Layout::Lines`]; if it does not fit, [`Layout::Stream`] is accepted if
+/// with its line. This is [`LineLayout::Lines`]; if it does not fit, [`LineLayout::Stream`] is accepted if
 /// it fits to the last word.
 pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
     let mut tokens = Tokens::new(bytes, Syntax::Comments);
@@ -47,13 +47,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
         return binary::read(bytes, ahead.position(), attributes);
     }
     let counts = counts(&mut tokens)?;
-    Body::read(tokens.clone(), attributes, counts, Layout::Lines)
-        .or_else(|fault| Body::read(tokens, attributes, counts, Layout::Stream).map_err(|_| fault))
+    OffText::read(tokens.clone(), attributes, counts, LineLayout::Lines)
+        .or_else(|fault| OffText::read(tokens, attributes, counts, LineLayout::Stream).map_err(|_| fault))
 }
 
 /// Reads `[ST][C][N][4][n]OFF`, which is optional; the counts can follow without a blank.
-fn header(tokens: &mut Tokens) -> Result<Attributes, Fault> {
-    let mut attributes = Attributes::default();
+fn header(tokens: &mut Tokens) -> Result<VertexAttributes, Fault> {
+    let mut attributes = VertexAttributes::default();
     let before = tokens.clone();
     let Some(word) = tokens.next() else {
         return Err(Fault::whole(Defect::Empty));
@@ -106,14 +106,19 @@ fn count(tokens: &mut Tokens, wanted: &'static str) -> Result<u64, Fault> {
     value.ok_or_else(|| tokens.fault(Defect::NotANumber { token: quote(token), wanted }))
 }
 
-struct Body<'a> {
+struct OffText<'a> {
     tokens: Tokens<'a>,
-    attributes: Attributes,
-    layout: Layout,
+    attributes: VertexAttributes,
+    layout: LineLayout,
 }
 
-impl<'a> Body<'a> {
-    fn read(tokens: Tokens<'a>, attributes: Attributes, counts: Counts, layout: Layout) -> Result<Parsed, Fault> {
+impl<'a> OffText<'a> {
+    fn read(
+        tokens: Tokens<'a>,
+        attributes: VertexAttributes,
+        counts: Counts,
+        layout: LineLayout,
+    ) -> Result<Parsed, Fault> {
         // A vertex or face takes at least six bytes; memory for larger declared counts is not
         // reserved.
         let room = |claimed: u64| claimed.min(tokens.left() as u64 / 6) as usize;
@@ -121,7 +126,7 @@ impl<'a> Body<'a> {
         let mut faces = Faces::with_capacity(room(counts.faces), 0);
         let mut text = VertexText::new();
         let mut normals = Vec::new();
-        let mut body = Body { tokens, attributes, layout };
+        let mut body = OffText { tokens, attributes, layout };
         for v in 0..counts.vertices {
             let end = |wanted| Defect::UnexpectedEnd { wanted, what: "vertices", done: v, expected: counts.vertices };
             positions.push(body.position(&mut text, end)?);
@@ -167,7 +172,7 @@ impl<'a> Body<'a> {
 
     /// Skips the colours and texture coordinates of a vertex.
     fn vertex_tail(&mut self, end: impl Fn(&'static str) -> Defect) -> Result<(), Fault> {
-        if self.layout == Layout::Lines {
+        if self.layout == LineLayout::Lines {
             self.tokens.end_line();
             return Ok(());
         }
@@ -193,7 +198,7 @@ impl<'a> Body<'a> {
             let word = self.word("a vertex index", &end)?;
             polygon.push(vertex_index(word, vertices).map_err(|e| self.tokens.fault(e))?);
         }
-        if self.layout == Layout::Lines {
+        if self.layout == LineLayout::Lines {
             self.tokens.end_line();
         }
         Ok(())

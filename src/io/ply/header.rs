@@ -2,7 +2,7 @@ use crate::io::error::{Defect, Fault, quote};
 use crate::io::token::{Syntax, Tokens, integer, line_end_at};
 
 /// The declarations before `end_header`.
-pub(super) struct Header {
+pub(super) struct PlyHeader {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
     /// Byte offset of the first element.
@@ -87,8 +87,8 @@ impl Element {
     }
 }
 
-impl Header {
-    pub fn read(bytes: &[u8]) -> Result<Header, Fault> {
+impl PlyHeader {
+    pub fn read(bytes: &[u8]) -> Result<PlyHeader, Fault> {
         let mut tokens = Tokens::new(bytes, Syntax::Plain);
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
@@ -135,7 +135,7 @@ impl Header {
         let line_end = tokens.line_end();
         // After a lone carriage return, a newline would be the first byte of binary data.
         let length = if carriage_return_ends_lines { 1 } else { line_end_at(bytes, line_end) };
-        Ok(Header { encoding, elements, end: (line_end + length).min(bytes.len()) })
+        Ok(PlyHeader { encoding, elements, end: (line_end + length).min(bytes.len()) })
     }
 }
 

@@ -1,8 +1,8 @@
 mod header;
 mod source;
 
-use header::{Element, Encoding, Header, PropertyType, Scalar};
-use source::{Ascii, Binary, Source};
+use header::{Element, Encoding, PlyHeader, PropertyType, Scalar};
+use source::{Ascii, Binary, ValueSource};
 
 use super::error::{Defect, Fault, quote};
 use super::mesh::{Parsed, VertexText, mean_normals, push_face};
@@ -15,16 +15,16 @@ use crate::surface::Faces;
 /// length of the file. Ascii values are read in double precision whatever their declared type, so
 /// that no digit is lost.
 pub(super) fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
-    let header = Header::read(bytes)?;
+    let header = PlyHeader::read(bytes)?;
     let vertices = check(&header)?;
     match header.encoding {
-        Encoding::Ascii => Body::read(Ascii::new(bytes, header.end), &header, vertices),
-        encoding => Body::read(Binary::new(bytes, header.end, encoding), &header, vertices),
+        Encoding::Ascii => PlyBody::read(Ascii::new(bytes, header.end), &header, vertices),
+        encoding => PlyBody::read(Binary::new(bytes, header.end, encoding), &header, vertices),
     }
 }
 
 /// Checks that the header declares a mesh and returns the number of vertices.
-fn check(header: &Header) -> Result<u64, Fault> {
+fn check(header: &PlyHeader) -> Result<u64, Fault> {
     let lacks = |what| Err(Fault::text(header.end.saturating_sub(1), Defect::HeaderLacks { what }));
     let named = |name| header.elements.iter().find(|e| e.name == name);
     let Some(vertex) = named("vertex") else {
@@ -97,7 +97,7 @@ fn roles(element: &Element) -> Vec<(Role, PropertyType)> {
     element.properties.iter().enumerate().map(|(i, p)| (role(i, &p.name, p.kind), p.kind)).collect()
 }
 
-struct Body<S> {
+struct PlyBody<S> {
     source: S,
     vertices: u64,
     positions: Vec<[f64; 3]>,
@@ -107,9 +107,9 @@ struct Body<S> {
     polygon: Vec<u32>,
 }
 
-impl<'a, S: Source<'a>> Body<S> {
-    fn read(source: S, header: &Header, vertices: u64) -> Result<Parsed, Fault> {
-        let mut body = Body {
+impl<'a, S: ValueSource<'a>> PlyBody<S> {
+    fn read(source: S, header: &PlyHeader, vertices: u64) -> Result<Parsed, Fault> {
+        let mut body = PlyBody {
             source,
             vertices,
             positions: Vec::new(),
@@ -123,7 +123,7 @@ impl<'a, S: Source<'a>> Body<S> {
         }
         body.source.end()?;
         body.text.shrink();
-        let Body { positions, normals, faces, text, .. } = body;
+        let PlyBody { positions, normals, faces, text, .. } = body;
         let normals = (!normals.is_empty()).then(|| mean_normals(&faces, |c| normals[faces.corners()[c] as usize]));
         let text = (header.encoding == Encoding::Ascii).then_some(text);
         Ok(Parsed { positions, faces, normals, text })

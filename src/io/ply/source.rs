@@ -3,7 +3,7 @@ use crate::io::error::{Defect, Fault, quote};
 use crate::io::token::{Syntax, Tokens, integer, number};
 
 /// A stream of the values of a PLY body. `None` means that the file has ended.
-pub(super) trait Source<'a> {
+pub(super) trait ValueSource<'a> {
     /// Returns the next value.
     fn scalar(&mut self, kind: Scalar) -> Result<Option<f64>, Fault>;
 
@@ -40,7 +40,7 @@ impl<'a> Ascii<'a> {
     }
 }
 
-impl<'a> Source<'a> for Ascii<'a> {
+impl<'a> ValueSource<'a> for Ascii<'a> {
     fn scalar(&mut self, _: Scalar) -> Result<Option<f64>, Fault> {
         let Some(word) = self.tokens.next() else {
             return Ok(None);
@@ -127,7 +127,7 @@ impl<'a> Binary<'a> {
     }
 }
 
-impl<'a> Source<'a> for Binary<'a> {
+impl<'a> ValueSource<'a> for Binary<'a> {
     #[inline]
     fn scalar(&mut self, kind: Scalar) -> Result<Option<f64>, Fault> {
         Ok(match kind {

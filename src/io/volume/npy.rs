@@ -9,7 +9,7 @@ use crate::surface::digital::Solid;
 /// vertices of scikit-image's `marching_cubes`. An array indexed as `a[z, y, x]` gives the mirror
 /// image; `a.transpose(2, 1, 0)` corrects this.
 pub(super) fn read(bytes: &[u8], threshold: f64) -> Result<Volume, Fault> {
-    let header = Header::read(bytes)?;
+    let header = NpyHeader::read(bytes)?;
     let size = header.size;
     let values = count(size).map_err(|defect| Fault::binary(header.at, defect))?;
     let data = &bytes[header.data..];
@@ -107,7 +107,7 @@ impl NpyType {
     }
 }
 
-struct Header {
+struct NpyHeader {
     kind: NpyType,
     fortran: bool,
     size: [usize; 3],
@@ -116,7 +116,7 @@ struct Header {
     data: usize,
 }
 
-impl Header {
+impl NpyHeader {
     /// Reads `\x93NUMPY`, two bytes of version, the length of the dictionary in 2 bytes (version 1)
     /// or 4, and the dictionary.
     fn read(bytes: &[u8]) -> Result<Self, Fault> {
@@ -165,7 +165,7 @@ impl Header {
         let shape = value("'shape'")?;
         let inner = shape.strip_prefix(b"(").and_then(|rest| rest.split(|&b| b == b')').next());
         let size = inner.and_then(three).ok_or_else(|| wrong(shape, "a shape of three lengths, 1 or more each"))?;
-        Ok(Header { kind, fortran, size, at, data: at + length })
+        Ok(NpyHeader { kind, fortran, size, at, data: at + length })
     }
 }
 

@@ -36,7 +36,7 @@ impl VolKind {
 /// version they follow the three sizes as binary numbers and a line end. As in DGtal, `Center-X`
 /// places the first voxel at `Center-X − (X − 1)/2`, rounded toward zero; the default is 0.
 pub(super) fn read(bytes: &[u8], kind: VolKind, threshold: f64) -> Result<Volume, Fault> {
-    let header = Header::read(bytes)?;
+    let header = VolHeader::read(bytes)?;
     let size = [header.size("X")?, header.size("Y")?, header.size("Z")?];
     let values = count(size).map_err(|defect| Fault::text(header.end.saturating_sub(1), defect))?;
     let (at, width) = header.required(kind.size_key())?;
@@ -66,14 +66,14 @@ pub(super) fn read(bytes: &[u8], kind: VolKind, threshold: f64) -> Result<Volume
 }
 
 /// The fields of a header.
-struct Header<'a> {
+struct VolHeader<'a> {
     /// Key, value, byte offset of the value.
     fields: Vec<(&'a [u8], &'a [u8], usize)>,
     /// Offset of the data.
     end: usize,
 }
 
-impl<'a> Header<'a> {
+impl<'a> VolHeader<'a> {
     fn read(bytes: &'a [u8]) -> Result<Self, Fault> {
         let mut fields = Vec::new();
         let mut position = 0;
@@ -84,7 +84,7 @@ impl<'a> Header<'a> {
             if line == b"." {
                 // Only one line end, because what follows can be data.
                 let data = end + if bytes[end..].starts_with(b"\r\n") { 2 } else { 1 };
-                return Ok(Header { fields, end: data.min(bytes.len()) });
+                return Ok(VolHeader { fields, end: data.min(bytes.len()) });
             }
             if end >= bytes.len() {
                 let wanted = "a line `Key: value`, or `.` at the end of the header";

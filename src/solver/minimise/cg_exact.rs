@@ -1,6 +1,6 @@
 use argmin::core::{Error, KV, Problem, Solver};
 
-use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
+use super::executor::{ArgminObjective, Iterate, IterationLimits, LARGEST_SHARE, dot, evaluated, run};
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::problem::nonlinear::Objective;
 use crate::solver::Observer;
@@ -25,7 +25,7 @@ impl Minimiser for CgExact {
         rule: StopRule,
         watch: &mut dyn Observer,
     ) -> Result<Minimum, MinimiseError> {
-        run(self.name(), ExactCg::default(), objective, start, rule, Limits::FIRST_ORDER, watch)
+        run(self.name(), ExactCg::default(), objective, start, rule, IterationLimits::FIRST_ORDER, watch)
     }
 }
 
@@ -50,12 +50,16 @@ pub(super) fn step_length(objective: &Objective, y: &[f64], p: &[f64]) -> Option
     }
 }
 
-impl<'a> Solver<Target<'a>, Iterate> for ExactCg {
+impl<'a> Solver<ArgminObjective<'a>, Iterate> for ExactCg {
     fn name(&self) -> &str {
         "cg-exact"
     }
 
-    fn init(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+    fn init(
+        &mut self,
+        problem: &mut Problem<ArgminObjective<'a>>,
+        state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), Error> {
         let state = evaluated(problem, state)?;
         self.direction = state.get_gradient().map_or(&[][..], Vec::as_slice).iter().map(|g| -g).collect();
         Ok((state, None))
@@ -63,7 +67,7 @@ impl<'a> Solver<Target<'a>, Iterate> for ExactCg {
 
     fn next_iter(
         &mut self,
-        problem: &mut Problem<Target<'a>>,
+        problem: &mut Problem<ArgminObjective<'a>>,
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), Error> {
         let objective = problem.problem.as_ref().map(|target| target.objective);

@@ -13,7 +13,7 @@ use crate::solver::{Iteration, Observer, Phase};
 
 /// An objective in the interface of argmin.
 #[derive(Clone, Copy)]
-pub(super) struct Target<'a> {
+pub(super) struct ArgminObjective<'a> {
     pub objective: &'a Objective,
     /// Number of evaluations of the energy in this iteration.
     evaluations: &'a Cell<usize>,
@@ -29,7 +29,7 @@ const EVALUATIONS: usize = 200;
 /// Parameters, cost and gradient of an iteration.
 pub(super) type Iterate = IterState<Vec<f64>, Vec<f64>, (), (), (), f64>;
 
-impl CostFunction for Target<'_> {
+impl CostFunction for ArgminObjective<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
@@ -42,7 +42,7 @@ impl CostFunction for Target<'_> {
     }
 }
 
-impl Gradient for Target<'_> {
+impl Gradient for ArgminObjective<'_> {
     type Param = Vec<f64>;
     type Gradient = Vec<f64>;
 
@@ -53,7 +53,7 @@ impl Gradient for Target<'_> {
 
 /// The limits of a minimiser.
 #[derive(Clone, Copy)]
-pub(super) struct Limits {
+pub(super) struct IterationLimits {
     /// Default for the largest number of iterations.
     pub max_iterations: usize,
     /// Number of consecutive steps without a decrease of energy or gradient after which rounding
@@ -61,9 +61,9 @@ pub(super) struct Limits {
     pub stalled: usize,
 }
 
-impl Limits {
+impl IterationLimits {
     /// Limits for methods that take many small steps.
-    pub const FIRST_ORDER: Limits = Limits { max_iterations: 50_000, stalled: 100 };
+    pub const FIRST_ORDER: IterationLimits = IterationLimits { max_iterations: 50_000, stalled: 100 };
 }
 
 /// A solver with the common stopping rule.
@@ -80,7 +80,7 @@ struct Watched<'a, S> {
     stalled_limit: usize,
 }
 
-impl<'a, S: Solver<Target<'a>, Iterate>> Watched<'a, S> {
+impl<'a, S: Solver<ArgminObjective<'a>, Iterate>> Watched<'a, S> {
     /// Records an iterate.
     fn see(&mut self, state: &Iterate, number: usize) {
         let Some(y) = state.get_param() else { return };
@@ -103,12 +103,16 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Watched<'a, S> {
     }
 }
 
-impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched<'a, S> {
+impl<'a, S: Solver<ArgminObjective<'a>, Iterate>> Solver<ArgminObjective<'a>, Iterate> for Watched<'a, S> {
     fn name(&self) -> &str {
         self.inner.name()
     }
 
-    fn init(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+    fn init(
+        &mut self,
+        problem: &mut Problem<ArgminObjective<'a>>,
+        state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), Error> {
         let (state, kv) = self.inner.init(problem, state)?;
         self.best.value = f64::INFINITY;
         self.see(&state, 0);
@@ -116,7 +120,11 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched
         Ok((state, kv))
     }
 
-    fn next_iter(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+    fn next_iter(
+        &mut self,
+        problem: &mut Problem<ArgminObjective<'a>>,
+        state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), Error> {
         let number = state.get_iter() as usize + 1;
         self.evaluations.set(0);
         match self.inner.next_iter(problem, state) {
@@ -157,7 +165,7 @@ impl<'a, S: Solver<Target<'a>, Iterate>> Solver<Target<'a>, Iterate> for Watched
 }
 
 /// Returns the state with cost and gradient at its parameters, with which our own solvers begin.
-pub(super) fn evaluated(problem: &mut Problem<Target>, state: Iterate) -> Result<Iterate, Error> {
+pub(super) fn evaluated(problem: &mut Problem<ArgminObjective>, state: Iterate) -> Result<Iterate, Error> {
     let y = state.get_param().cloned().unwrap_or_default();
     let (cost, gradient) = (problem.cost(&y)?, problem.gradient(&y)?);
     Ok(state.cost(cost).gradient(gradient))
@@ -209,13 +217,13 @@ fn gradient_of_a_start(objective: &Objective, start: &[f64]) -> f64 {
 }
 
 /// Runs `solver` from `start` until the stopping rule applies.
-pub(super) fn run<S: for<'t> Solver<Target<'t>, Iterate>>(
+pub(super) fn run<S: for<'t> Solver<ArgminObjective<'t>, Iterate>>(
     backend: &'static str,
     solver: S,
     objective: &Objective,
     start: Vec<f64>,
     rule: StopRule,
-    limits: Limits,
+    limits: IterationLimits,
     watch: &mut dyn Observer,
 ) -> Result<Minimum, MinimiseError> {
     watch.phase(Phase::Solve);
@@ -242,7 +250,7 @@ pub(super) fn run<S: for<'t> Solver<Target<'t>, Iterate>>(
         stalled_limit: limits.stalled,
     };
     let max_iterations = rule.max_iterations.unwrap_or(limits.max_iterations) as u64;
-    let result = Executor::new(Target { objective, evaluations: &evaluations }, watched)
+    let result = Executor::new(ArgminObjective { objective, evaluations: &evaluations }, watched)
         .configure(|state: Iterate| state.param(start).max_iters(max_iterations))
         .ctrlc(false)
         .timer(false)

@@ -7,7 +7,7 @@ use argmin::solver::conjugategradient::beta::{FletcherReeves as BetaFr, PolakRib
 use argmin::solver::linesearch::MoreThuenteLineSearch;
 use argmin::solver::quasinewton::LBFGS;
 
-use super::executor::{Limits, run};
+use super::executor::{IterationLimits, run};
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::problem::nonlinear::Objective;
 use crate::solver::Observer;
@@ -72,7 +72,7 @@ impl Minimiser for FirstOrder {
         watch: &mut dyn Observer,
     ) -> Result<Minimum, MinimiseError> {
         let failed = |error: Error| MinimiseError::Solver { backend: self.name, message: error.to_string() };
-        let limits = Limits::FIRST_ORDER;
+        let limits = IterationLimits::FIRST_ORDER;
         match self.method {
             Method::FletcherReeves => {
                 let solver = NonlinearConjugateGradient::new(line_search().map_err(failed)?, BetaFr::new());

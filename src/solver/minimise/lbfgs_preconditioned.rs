@@ -3,7 +3,7 @@ use std::collections::VecDeque;
 use argmin::core::{Error, KV, Problem, Solver};
 
 use super::cg_exact::step_length;
-use super::executor::{Iterate, Limits, Target, dot, evaluated, run, start_gradient_norm};
+use super::executor::{ArgminObjective, Iterate, IterationLimits, dot, evaluated, run, start_gradient_norm};
 use super::levenberg_marquardt::add_damping;
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::energy::Curvature;
@@ -50,12 +50,12 @@ impl Minimiser for LbfgsPreconditioned {
         let factor = analysis.factorise(&values, None).map_err(&failed)?;
         watch.phase(Phase::Solve);
         let solver = Preconditioned { factor, pairs: VecDeque::new() };
-        run(self.name(), solver, objective, start, rule, Limits::FIRST_ORDER, watch)
+        run(self.name(), solver, objective, start, rule, IterationLimits::FIRST_ORDER, watch)
     }
 }
 
 /// A step s, the change q of the gradient over it, and 1/(s·q).
-struct Pair {
+struct CurvaturePair {
     s: Vec<f64>,
     q: Vec<f64>,
     inverse: f64,
@@ -63,7 +63,7 @@ struct Pair {
 
 struct Preconditioned<'f> {
     factor: Cholesky<'f, f64>,
-    pairs: VecDeque<Pair>,
+    pairs: VecDeque<CurvaturePair>,
 }
 
 impl Preconditioned<'_> {
@@ -92,18 +92,22 @@ fn add(a: &mut [f64], t: f64, b: &[f64]) {
     }
 }
 
-impl<'a> Solver<Target<'a>, Iterate> for Preconditioned<'_> {
+impl<'a> Solver<ArgminObjective<'a>, Iterate> for Preconditioned<'_> {
     fn name(&self) -> &str {
         "lbfgs-preconditioned"
     }
 
-    fn init(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+    fn init(
+        &mut self,
+        problem: &mut Problem<ArgminObjective<'a>>,
+        state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), Error> {
         Ok((evaluated(problem, state)?, None))
     }
 
     fn next_iter(
         &mut self,
-        problem: &mut Problem<Target<'a>>,
+        problem: &mut Problem<ArgminObjective<'a>>,
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), Error> {
         let objective = problem.problem.as_ref().map(|target| target.objective);
@@ -124,7 +128,7 @@ impl<'a> Solver<Target<'a>, Iterate> for Preconditioned<'_> {
             if self.pairs.len() == PAIRS {
                 self.pairs.pop_front();
             }
-            self.pairs.push_back(Pair { s, q, inverse: 1.0 / curvature });
+            self.pairs.push_back(CurvaturePair { s, q, inverse: 1.0 / curvature });
         }
         Ok((state.param(y).cost(cost).gradient(new), None))
     }

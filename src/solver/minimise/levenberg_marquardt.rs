@@ -1,6 +1,6 @@
 use argmin::core::{Error, KV, Problem, Solver};
 
-use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
+use super::executor::{ArgminObjective, Iterate, IterationLimits, LARGEST_SHARE, dot, evaluated, run};
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::energy::Curvature;
 use crate::problem::nonlinear::{HessianAssembly, Objective};
@@ -73,7 +73,7 @@ impl Minimiser for LevenbergMarquardt {
             growth: 2.0,
             factor: None,
         };
-        let limits = Limits { max_iterations: self.default_max_iterations(), stalled: 3 };
+        let limits = IterationLimits { max_iterations: self.default_max_iterations(), stalled: 3 };
         run(self.name(), solver, objective, start, rule, limits, watch)
     }
 }
@@ -207,18 +207,22 @@ impl Damped<'_> {
     }
 }
 
-impl<'a> Solver<Target<'a>, Iterate> for Damped<'_> {
+impl<'a> Solver<ArgminObjective<'a>, Iterate> for Damped<'_> {
     fn name(&self) -> &str {
         "levenberg-marquardt"
     }
 
-    fn init(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+    fn init(
+        &mut self,
+        problem: &mut Problem<ArgminObjective<'a>>,
+        state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), Error> {
         Ok((evaluated(problem, state)?, None))
     }
 
     fn next_iter(
         &mut self,
-        problem: &mut Problem<Target<'a>>,
+        problem: &mut Problem<ArgminObjective<'a>>,
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), Error> {
         let y = state.take_param().unwrap_or_default();

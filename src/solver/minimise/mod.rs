@@ -27,7 +27,7 @@ pub trait Minimiser: Sync {
 
     /// Default for the largest number of iterations.
     fn default_max_iterations(&self) -> usize {
-        executor::Limits::FIRST_ORDER.max_iterations
+        executor::IterationLimits::FIRST_ORDER.max_iterations
     }
 
     /// Finds a local minimum of `objective` near `start` (`m`).

@@ -1,6 +1,6 @@
 use argmin::core::{Error, KV, Problem, Solver, TerminationReason, TerminationStatus};
 
-use super::executor::{Iterate, LARGEST_SHARE, Limits, Target, dot, evaluated, run};
+use super::executor::{ArgminObjective, Iterate, IterationLimits, LARGEST_SHARE, dot, evaluated, run};
 use super::levenberg_marquardt::add_damping;
 use super::{MinimiseError, Minimiser, Minimum, StopRule};
 use crate::energy::Curvature;
@@ -88,7 +88,7 @@ impl Minimiser for Newton {
             model: Vec::new(),
             blend: Vec::new(),
         };
-        let limits = Limits { max_iterations: self.default_max_iterations(), stalled: 3 };
+        let limits = IterationLimits { max_iterations: self.default_max_iterations(), stalled: 3 };
         run(self.name(), solver, objective, start, rule, limits, watch)
     }
 }
@@ -109,7 +109,7 @@ struct Backtracking<'a> {
 }
 
 /// The end of a step of t times the direction.
-struct End {
+struct StepEnd {
     t: f64,
     y: Vec<f64>,
     energy: f64,
@@ -160,18 +160,22 @@ impl Backtracking<'_> {
     }
 }
 
-impl<'a> Solver<Target<'a>, Iterate> for Backtracking<'_> {
+impl<'a> Solver<ArgminObjective<'a>, Iterate> for Backtracking<'_> {
     fn name(&self) -> &str {
         "newton"
     }
 
-    fn init(&mut self, problem: &mut Problem<Target<'a>>, state: Iterate) -> Result<(Iterate, Option<KV>), Error> {
+    fn init(
+        &mut self,
+        problem: &mut Problem<ArgminObjective<'a>>,
+        state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), Error> {
         Ok((evaluated(problem, state)?, None))
     }
 
     fn next_iter(
         &mut self,
-        problem: &mut Problem<Target<'a>>,
+        problem: &mut Problem<ArgminObjective<'a>>,
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), Error> {
         let y = state.take_param().unwrap_or_default();
@@ -200,7 +204,7 @@ impl<'a> Solver<Target<'a>, Iterate> for Backtracking<'_> {
             }
             if there <= here + SUFFICIENT * t * slope {
                 let gradient = problem.gradient(&next)?;
-                let mut end = End { t, y: next, energy: there, gradient };
+                let mut end = StepEnd { t, y: next, energy: there, gradient };
                 while t >= 1.0 && 2.0 * end.t <= longest && dot(&end.gradient, &p) <= STEEP * slope {
                     let farther = along(2.0 * end.t);
                     let energy = problem.cost(&farther)?;
@@ -208,7 +212,7 @@ impl<'a> Solver<Target<'a>, Iterate> for Backtracking<'_> {
                         break;
                     }
                     let gradient = problem.gradient(&farther)?;
-                    end = End { t: 2.0 * end.t, y: farther, energy, gradient };
+                    end = StepEnd { t: 2.0 * end.t, y: farther, energy, gradient };
                 }
                 return Ok((state.param(end.y).cost(end.energy).gradient(end.gradient), None));
             }

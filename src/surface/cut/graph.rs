@@ -33,7 +33,7 @@ pub(super) fn cut_graph(graph: &EdgeGraph, genus: u64) -> Vec<u32> {
 }
 
 /// A set of edges whose removal leaves a disc, with its total length.
-struct System {
+struct LoopSystem {
     edges: Vec<u32>,
     length: f64,
     /// The node on the system's loops that is farthest from the root.
@@ -77,7 +77,7 @@ fn shortest_system(graph: &EdgeGraph) -> Vec<u32> {
             .filter(|&n| (0.75 * radius..=radius).contains(&best.distance[n as usize]))
             .collect();
         let step = circle.len().div_ceil(AROUND).max(1);
-        let shorter = |other: &System| other.length < best.length * (1.0 - SAME);
+        let shorter = |other: &LoopSystem| other.length < best.length * (1.0 - SAME);
         match circle.iter().step_by(step).find_map(|&root| another(root).filter(shorter)) {
             Some(other) => best = other,
             None => radius *= 0.5,
@@ -87,7 +87,7 @@ fn shortest_system(graph: &EdgeGraph) -> Vec<u32> {
 }
 
 /// Computes the greedy system of loops from `root`, prunes it and joins the boundary loops to it.
-fn system(graph: &EdgeGraph, root: u32) -> System {
+fn system(graph: &EdgeGraph, root: u32) -> LoopSystem {
     let loops = TreeCotree::new(graph, root);
     let mut chosen = vec![false; graph.edges.len()];
     let mut edges = Vec::new();
@@ -109,7 +109,7 @@ fn system(graph: &EdgeGraph, root: u32) -> System {
     let nodes = edges.iter().flat_map(|&e| graph.ends(e));
     let farthest = nodes.max_by(|&a, &b| distance[a as usize].total_cmp(&distance[b as usize])).unwrap_or(root);
     let edges = joined(graph, edges);
-    System { length: edges.iter().map(|&e| graph.length[e as usize]).sum(), edges, farthest, distance }
+    LoopSystem { length: edges.iter().map(|&e| graph.length[e as usize]).sum(), edges, farthest, distance }
 }
 
 /// Removes the branches that end at a node of degree one.

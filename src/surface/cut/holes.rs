@@ -6,7 +6,7 @@
 
 use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 use crate::surface::Faces;
-use crate::surface::cut::{CutError, CutRecord, Sheet};
+use crate::surface::cut::{CutError, CutMesh, CutRecord};
 use crate::surface::oriented_mesh::OrientedMesh;
 
 /// A position of the central vertex is accepted at once if the sine of the angle that measures the
@@ -25,7 +25,7 @@ const HEIGHTS: [f64; 7] = [0.0, 0.25, -0.25, 0.5, -0.5, 1.0, -1.0];
 /// # Errors
 /// [`CutError::OddHole`] in quad meshes; [`CutError::FlatHole`] if no faces of positive area fill
 /// it.
-pub(super) fn fill(sheet: &mut Sheet, loops: &[Vec<u32>], record: &mut CutRecord) -> Result<(), CutError> {
+pub(super) fn fill(sheet: &mut CutMesh, loops: &[Vec<u32>], record: &mut CutRecord) -> Result<(), CutError> {
     for along in loops {
         let before = sheet.source_face.len();
         fill_one(sheet, along)?;
@@ -35,7 +35,7 @@ pub(super) fn fill(sheet: &mut Sheet, loops: &[Vec<u32>], record: &mut CutRecord
     Ok(())
 }
 
-fn fill_one(sheet: &mut Sheet, along: &[u32]) -> Result<(), CutError> {
+fn fill_one(sheet: &mut CutMesh, along: &[u32]) -> Result<(), CutError> {
     let vertices: Vec<u32> = along.iter().map(|&c| sheet.corners[c as usize]).collect();
     let vertex = vertices.iter().map(|&v| sheet.source_vertex[v as usize]).min().unwrap_or(OrientedMesh::NEW);
     let edges = along.len();
@@ -84,7 +84,7 @@ fn fill_one(sheet: &mut Sheet, along: &[u32]) -> Result<(), CutError> {
     Ok(())
 }
 
-fn push_face(sheet: &mut Sheet, polygon: impl Iterator<Item = u32>) {
+fn push_face(sheet: &mut CutMesh, polygon: impl Iterator<Item = u32>) {
     let base = sheet.corners.len();
     sheet.corners.extend(polygon);
     sheet.twins.resize(sheet.corners.len(), Faces::NO_TWIN);
@@ -96,13 +96,13 @@ fn push_face(sheet: &mut Sheet, polygon: impl Iterator<Item = u32>) {
     }
 }
 
-fn pair(sheet: &mut Sheet, c: u32, d: u32) {
+fn pair(sheet: &mut CutMesh, c: u32, d: u32) {
     sheet.twins[c as usize] = d;
     sheet.twins[d as usize] = c;
 }
 
 /// Whether some face at the hole has exactly the vertices of the hole.
-fn is_a_face(sheet: &Sheet, along: &[u32], vertices: &[u32]) -> bool {
+fn is_a_face(sheet: &CutMesh, along: &[u32], vertices: &[u32]) -> bool {
     along.iter().any(|&c| {
         let first = c as usize / sheet.arity * sheet.arity;
         sheet.corners[first..first + sheet.arity].iter().all(|v| vertices.contains(v))

@@ -2,15 +2,15 @@
 //!
 //! The steps are: remove faces, fill holes, cut along a short graph.
 
+mod cut_mesh;
 mod error;
 mod graph;
 mod holes;
 mod record;
-mod sheet;
 
+pub(super) use cut_mesh::CutMesh;
 pub use error::CutError;
 pub use record::CutRecord;
-pub(super) use sheet::Sheet;
 
 use super::Surface;
 use super::edges::Edges;
@@ -109,7 +109,7 @@ fn prepare(
     diagnosis: &Diagnosis,
     opening: &Opening,
     record: &mut CutRecord,
-) -> Result<Sheet, CutError> {
+) -> Result<CutMesh, CutError> {
     let faces = surface.faces.len();
     let mut removed = vec![false; faces];
     for &face in &opening.remove_faces {
@@ -119,7 +119,7 @@ fn prepare(
     if record.faces_removed == faces {
         return Err(CutError::NothingLeft);
     }
-    let mut sheet = Sheet::new(surface, &diagnosis.topology, &removed);
+    let mut sheet = CutMesh::new(surface, &diagnosis.topology, &removed);
     if record.faces_removed > 0 {
         let pieces = sheet.pieces();
         if pieces > 1 {
@@ -135,7 +135,7 @@ fn prepare(
 }
 
 /// Cuts a surface that is not a disc along a short graph.
-fn cut(sheet: &mut Sheet, genus: u64, record: &mut CutRecord) {
+fn cut(sheet: &mut CutMesh, genus: u64, record: &mut CutRecord) {
     let faces = sheet.faces();
     let edges = Edges::new(&faces, sheet.positions.len());
     let graph = EdgeGraph::new(&faces, &edges, sheet.positions.len(), sheet.lengths(&edges));

@@ -9,7 +9,7 @@ use crate::surface::Faces;
 
 /// The distribution of the interior points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Points {
+pub(super) enum PointDistribution {
     /// One point in each cell of a grid, displaced from its centre by up to 0.35 cells along each
     /// axis.
     Jittered,
@@ -28,12 +28,12 @@ const MARGIN: f64 = 0.1;
 
 /// Triangulates the square [−1, 1]² with as many vertices, and the same boundary vertices, as the
 /// grid.
-pub(super) fn square(cells: usize, points: Points, random: &mut Random) -> Result<Patch, GenerateError> {
+pub(super) fn square(cells: usize, points: PointDistribution, random: &mut Random) -> Result<Patch, GenerateError> {
     let h = 2.0 / cells as f64;
     let inner = grid::points(cells).into_iter().filter(|p| p[0].abs() < 1.0 && p[1].abs() < 1.0);
     let moved = inner.map(|[s, t]| match points {
-        Points::Jittered => random.square_around([s, t], DISPLACEMENT * h),
-        Points::Random => random.square().map(|x| x * (1.0 - MARGIN * h)),
+        PointDistribution::Jittered => random.square_around([s, t], DISPLACEMENT * h),
+        PointDistribution::Random => random.square().map(|x| x * (1.0 - MARGIN * h)),
     });
     let mut all: Vec<[f64; 2]> = moved.collect();
     let interior = all.len();
@@ -48,7 +48,7 @@ pub(super) fn square(cells: usize, points: Points, random: &mut Random) -> Resul
 
 /// Triangulates the unit disc with about `(cells + 1)²` vertices; those on the boundary are evenly
 /// spaced.
-pub(super) fn disc(cells: usize, points: Points, random: &mut Random) -> Result<Patch, GenerateError> {
+pub(super) fn disc(cells: usize, points: PointDistribution, random: &mut Random) -> Result<Patch, GenerateError> {
     // As for a square, a mesh of spacing h has area/h² + perimeter/2h + 1 vertices; this is solved
     // for 1/h.
     let vertices = ((cells + 1) * (cells + 1)) as f64;
@@ -57,7 +57,7 @@ pub(super) fn disc(cells: usize, points: Points, random: &mut Random) -> Result<
     let boundary = (TAU * per_unit).round();
     let mut all = Vec::with_capacity((cells + 1) * (cells + 1));
     match points {
-        Points::Jittered => {
+        PointDistribution::Jittered => {
             let reach = per_unit.ceil() as i64;
             for j in -reach..reach {
                 for i in -reach..reach {
@@ -69,7 +69,7 @@ pub(super) fn disc(cells: usize, points: Points, random: &mut Random) -> Result<
                 }
             }
         }
-        Points::Random => {
+        PointDistribution::Random => {
             let wanted = (vertices - boundary).max(0.0) as usize;
             // Inside the polygon of the boundary points, not only inside the circle.
             let reach = (PI / boundary).cos() - MARGIN * h;

@@ -1,7 +1,7 @@
 //! Meshes of the two domains, square and disc, from the parameters shared by all surfaces over
 //! them.
 
-use super::delaunay::{self, Points};
+use super::delaunay::{self, PointDistribution};
 use super::grid::{self, Diagonal};
 use super::random::Random;
 use super::{Arguments, GenerateError, Parameter, Patch, SurfaceKind};
@@ -91,10 +91,10 @@ fn grid_mesh(
     Ok(Patch { points, faces })
 }
 
-fn points(arguments: &Arguments) -> Result<Points, GenerateError> {
+fn points(arguments: &Arguments) -> Result<PointDistribution, GenerateError> {
     if arguments.whole("n")? > MAX_N_DELAUNAY {
         let range = format!("at most {MAX_N_DELAUNAY}");
         return Err(arguments.out_of_range("n", " with mesh=delaunay".to_string(), range));
     }
-    Ok(if arguments.choice("points")? == "random" { Points::Random } else { Points::Jittered })
+    Ok(if arguments.choice("points")? == "random" { PointDistribution::Random } else { PointDistribution::Jittered })
 }

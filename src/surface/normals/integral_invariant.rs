@@ -1,6 +1,6 @@
 use nalgebra::Matrix3;
 
-use super::moments::{Ball, Moments};
+use super::moments::{Moments, VoxelBall};
 use super::whole::on_whole;
 use super::{Facets, NormalError, NormalEstimator, outward, rule};
 use crate::geometry::vector::{add, dot, scale};
@@ -43,7 +43,7 @@ impl NormalEstimator for IntegralInvariant {
         on_whole(facets, |facets| {
             let digital = facets.digital.ok_or(NormalError::NotDigital { estimator: self.name() })?;
             let radius = rule::radius_of(facets, arguments, LEAST_RADIUS)?;
-            let kinds = [0, 1, 2, 3, 4, 5].map(|kind: u8| Ball::new(kind / 2, kind % 2 == 1, radius));
+            let kinds = [0, 1, 2, 3, 4, 5].map(|kind: u8| VoxelBall::new(kind / 2, kind % 2 == 1, radius));
             let normal = |(surfel, &own): (&Surfel, &[f64; 3])| {
                 let ball = &kinds[usize::from(2 * surfel.axis + u8::from(surfel.positive))];
                 let moments = ball.moments(&digital.solid, surfel);

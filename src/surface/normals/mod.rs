@@ -56,7 +56,7 @@ pub static NORMAL_ESTIMATORS: &[&dyn NormalEstimator] = &[
     &convolution::Convolution,
     &hat::Hat,
     &integral_invariant::IntegralInvariant,
-    &surfel::Surfel,
+    &surfel::SurfelNormal,
     &given::Exact,
     &given::File,
 ];

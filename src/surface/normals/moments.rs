@@ -4,7 +4,7 @@ use crate::surface::digital::{Solid, Surfel};
 
 /// A ball around the centre of a surfel as rows of voxels. There are six kinds, by the direction of
 /// the surfel.
-pub(super) struct Ball {
+pub(super) struct VoxelBall {
     /// Centre of the ball minus centre of the inner voxel, times 2.
     centre: [i64; 3],
     rows: Vec<BallRow>,
@@ -30,7 +30,7 @@ pub(super) struct Moments {
     pub second: [i64; 6],
 }
 
-impl Ball {
+impl VoxelBall {
     /// Finds the voxels whose centres are at distance at most `radius` from the surfel's centre.
     pub(super) fn new(axis: u8, positive: bool, radius: f64) -> Self {
         let mut centre = [0; 3];
@@ -51,7 +51,7 @@ impl Ball {
                 }
             }
         }
-        Ball { centre, rows }
+        VoxelBall { centre, rows }
     }
 
     /// Computes the moments of the voxels of `solid` in the ball around the centre of `surfel`.
@@ -135,7 +135,7 @@ mod tests {
                     }
                 }
                 let surfel = Surfel { voxel, axis, positive };
-                let found = Ball::new(axis, positive, radius).moments(&solid, &surfel);
+                let found = VoxelBall::new(axis, positive, radius).moments(&solid, &surfel);
                 assert_eq!(found, expected, "{surfel:?}, radius {radius}");
             }
         }

@@ -3,9 +3,9 @@ use crate::surface::parameters::{Arguments, Parameter};
 
 /// The face's own normal (`e3` of a surfel), which does not converge, as figure 11 of the paper
 /// shows.
-pub(super) struct Surfel;
+pub(super) struct SurfelNormal;
 
-impl NormalEstimator for Surfel {
+impl NormalEstimator for SurfelNormal {
     fn name(&self) -> &'static str {
         "surfel"
     }

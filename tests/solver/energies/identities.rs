@@ -3,12 +3,12 @@ use crate::common::*;
 use num_complex::Complex64;
 use riemap::energy::conformal::Weight;
 use riemap::energy::{Circle, Energy, Order};
-use riemap::energy::{ENERGIES, Row};
+use riemap::energy::{ENERGIES, EnergyRow};
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
 use riemap::quad_graph::metric::RestMetric;
 
 /// Of energies that are finite everywhere.
-fn values(case: &Case, weight: Weight, z: &[Complex64]) -> Vec<(&'static Row, f64)> {
+fn values(case: &Case, weight: Weight, z: &[Complex64]) -> Vec<(&'static EnergyRow, f64)> {
     let held = vec![false; case.graph.vertices];
     let folds = ENERGIES.iter().filter(|row| !row.flip_free);
     let made = folds.filter_map(|row| Some((row, (row.make)(case.rest(weight, &held)).ok()?)));

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use riemap::constraint::on_circle;
 use riemap::energy::conformal::Weight;
 use riemap::energy::{Authalic, Circle, Conformal, Curvature, Energy, Gaps, Metric, Order, Rest, SquareSum};
-use riemap::energy::{ENERGIES, Row};
+use riemap::energy::{ENERGIES, EnergyRow};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
 use riemap::quad_graph::metric::RestMetric;
@@ -80,7 +80,7 @@ impl Case {
     }
 
     /// Those that are infinite there.
-    pub fn flip_free(&self, weight: Weight) -> Vec<(&'static Row, Box<dyn Energy>)> {
+    pub fn flip_free(&self, weight: Weight) -> Vec<(&'static EnergyRow, Box<dyn Energy>)> {
         let held = vec![false; self.graph.vertices];
         let rows = ENERGIES.iter().filter(|row| row.flip_free);
         rows.map(|row| (row, (row.make)(self.rest(weight, &held)).unwrap())).collect()

@@ -1,4 +1,4 @@
-use super::{Frame, closed};
+use super::{ShapeFrame, closed};
 use crate::geometry::vector::{norm, scale};
 use crate::surface::digital::Implicit;
 use crate::surface::generate::{Form, Parameter, SurfaceKind};
@@ -12,14 +12,14 @@ pub(in super::super) const BALL: SurfaceKind = SurfaceKind {
     about: "surfels of the lattice points in a ball, √(x² + y² + z²) ≤ R: a closed sphere",
     parameters: &[&[Parameter::real("R", 16.0, 1.0, 500.0, "radius, in voxels")], super::POSITION],
     form: Form::Whole(|arguments| {
-        let ball = Ball { frame: Frame::new(arguments, false)?, radius: arguments.real("R")? };
+        let ball = Ball { frame: ShapeFrame::new(arguments, false)?, radius: arguments.real("R")? };
         closed(arguments, &ball, ball.frame.bounds([ball.radius; 3]), 2, "R")
     }),
     exact: false,
 };
 
 pub(super) struct Ball {
-    pub frame: Frame,
+    pub frame: ShapeFrame,
     pub radius: f64,
 }
 

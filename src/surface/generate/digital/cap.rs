@@ -1,4 +1,4 @@
-use super::Frame;
+use super::ShapeFrame;
 use super::ball::Ball;
 use crate::geometry::vector::norm;
 use crate::surface::digital::{Adjacency, Solid, Surfel, digitise, exact_normals, part};
@@ -37,7 +37,7 @@ pub(in super::super) const CAP: SurfaceKind = SurfaceKind {
 };
 
 fn cap(arguments: &Arguments) -> Result<Generated, GenerateError> {
-    let ball = Ball { frame: Frame::new(arguments, false)?, radius: arguments.real("R")? };
+    let ball = Ball { frame: ShapeFrame::new(arguments, false)?, radius: arguments.real("R")? };
     let solid = digitise(&ball, ball.frame.bounds([ball.radius; 3]))?;
     let wanted = ball.frame.centre[2] + ball.radius * arguments.real("angle")?.to_radians().cos();
     // Planes are at half-integers; at least one layer of voxels lies above.

@@ -1,4 +1,4 @@
-use super::{Frame, closed};
+use super::{ShapeFrame, closed};
 use crate::surface::digital::Implicit;
 use crate::surface::generate::{Form, Parameter, SurfaceKind};
 
@@ -17,14 +17,14 @@ pub(in super::super) const BOX: SurfaceKind = SurfaceKind {
     ],
     form: Form::Whole(|arguments| {
         let half = [arguments.real("a")?, arguments.real("b")?, arguments.real("c")?];
-        let cuboid = Cuboid { frame: Frame::new(arguments, true)?, half };
+        let cuboid = Cuboid { frame: ShapeFrame::new(arguments, true)?, half };
         closed(arguments, &cuboid, cuboid.frame.bounds(half), 2, "c")
     }),
     exact: false,
 };
 
 struct Cuboid {
-    frame: Frame,
+    frame: ShapeFrame,
     half: [f64; 3],
 }
 

@@ -1,4 +1,4 @@
-use super::{Frame, closed};
+use super::{ShapeFrame, closed};
 use crate::geometry::vector::norm;
 use crate::surface::digital::Implicit;
 use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, SurfaceKind};
@@ -26,7 +26,7 @@ pub(in super::super) const ELLIPSOID: SurfaceKind = SurfaceKind {
 const SHARPEST: f64 = 1.5;
 
 struct Ellipsoid {
-    frame: Frame,
+    frame: ShapeFrame,
     half: [f64; 3],
 }
 
@@ -61,7 +61,7 @@ fn ellipsoid(arguments: &Arguments) -> Result<Generated, GenerateError> {
             ));
         }
     }
-    let frame = Frame::new(arguments, true)?;
+    let frame = ShapeFrame::new(arguments, true)?;
     let bounds = frame.bounds(half);
     closed(arguments, &Ellipsoid { frame, half }, bounds, 2, "c")
 }

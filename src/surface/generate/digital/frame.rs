@@ -3,13 +3,13 @@ use crate::geometry::vector::{dot, sub};
 
 /// The rigid motion between lattice coordinates and the shape's own: a rotation about (2, 1, 0)/√5
 /// and a translation.
-pub(super) struct Frame {
+pub(super) struct ShapeFrame {
     pub centre: [f64; 3],
     /// The shape's axes in lattice coordinates.
     axes: [[f64; 3]; 3],
 }
 
-impl Frame {
+impl ShapeFrame {
     /// Reads the parameters [`POSITION`](super::POSITION) and, if `tilted`, [`TILT`](super::TILT).
     pub(super) fn new(arguments: &Arguments, tilted: bool) -> Result<Self, GenerateError> {
         let centre = [arguments.real("x")?, arguments.real("y")?, arguments.real("z")?];
@@ -28,7 +28,7 @@ impl Frame {
                 [b * sin, -a * sin, cos],
             ]
         };
-        Ok(Frame { centre, axes })
+        Ok(ShapeFrame { centre, axes })
     }
 
     /// Transforms a point to the shape's coordinates.

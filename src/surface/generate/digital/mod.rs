@@ -17,7 +17,7 @@ pub(super) use torus::TORUS;
 
 use super::{Arguments, GenerateError, Generated, Parameter};
 use crate::surface::digital::{Adjacency, DigitalError, Implicit, boundary, digitise, exact_normals};
-use frame::Frame;
+use frame::ShapeFrame;
 
 /// Parameters of the position of the shape's centre.
 const POSITION: &[Parameter] = &[

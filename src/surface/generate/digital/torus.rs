@@ -1,4 +1,4 @@
-use super::{Frame, closed};
+use super::{ShapeFrame, closed};
 use crate::surface::digital::Implicit;
 use crate::surface::generate::{Arguments, Form, GenerateError, Generated, Parameter, SurfaceKind};
 
@@ -19,7 +19,7 @@ pub(in super::super) const TORUS: SurfaceKind = SurfaceKind {
 };
 
 struct Torus {
-    frame: Frame,
+    frame: ShapeFrame,
     big: f64,
     small: f64,
 }
@@ -49,7 +49,7 @@ fn torus(arguments: &Arguments) -> Result<Generated, GenerateError> {
     if small > big - 1.0 {
         return Err(arguments.out_of_range("r", format!(" with R={big}"), format!("at most {}", big - 1.0)));
     }
-    let frame = Frame::new(arguments, true)?;
+    let frame = ShapeFrame::new(arguments, true)?;
     let bounds = frame.bounds([big + small, big + small, small]);
     let generated = closed(arguments, &Torus { frame, big, small }, bounds, 0, "r")?;
     Ok(Generated { period: Some([0.0, small / (big * big - small * small).sqrt()]), ..generated })

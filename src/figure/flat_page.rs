@@ -1,13 +1,13 @@
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
 
-use super::bar::Bar;
-use super::colour::{Colour, error_colour, grey};
-use super::drawing::{Anchor, Drawing, Shape};
+use super::colour::Colour;
+use super::colour_bar::{ColourBar, Colours};
+use super::drawing::{Drawing, TextAnchor, VectorShape};
 use super::frame::Frame;
 use super::outline::edges;
-use super::raster::{Raster, SAMPLES, Sheet, blank_sheet, encode_png};
+use super::raster::{Raster, RenderedSheet, SAMPLES, blank_sheet, encode_png};
 use super::scale::Scale;
-use super::{FigureError, FlatMap, style, text};
+use super::{FigureError, FlatMap, Format, style, text};
 
 /// Largest number of corners for which the faces of an SVG are vectors (60 000 quads, about 8 MB);
 /// with more they become an embedded picture.
@@ -29,37 +29,38 @@ const OUTLINE_EDGES: usize = 100_000;
 /// Width of the map's outline.
 const OUTLINE: f64 = 1.6;
 
-/// The colours of a scale.
-#[derive(Clone, Copy)]
-pub(super) struct Colours {
-    /// The colour of t ∈ [0, 1].
-    pub(super) on_scale: fn(f64) -> Colour,
-    /// The colour of values beyond the scale.
-    pub(super) beyond: Colour,
-}
-
-impl Colours {
-    const PLAIN: Colours = Colours { on_scale: error_colour, beyond: style::OVER };
-    const MARKED: Colours = Colours { on_scale: grey, beyond: style::MARK };
-}
-
 /// A checked map with its layout. Lengths are pixels.
-pub(super) struct Page<'a> {
+pub(super) struct FlatPage<'a> {
     map: &'a FlatMap<'a>,
     scale: Scale,
     colours: Colours,
     flipped: Vec<bool>,
     frame: Frame,
-    bar: Bar,
+    bar: ColourBar,
     title: Vec<String>,
     /// Upper left corner of the plot area.
     corner: [f64; 2],
     size: [u32; 2],
 }
 
-impl<'a> Page<'a> {
+impl FlatMap<'_> {
+    /// Renders the picture to the bytes of a file.
+    ///
+    /// # Errors
+    /// Every variant of [`FigureError`] but `UnknownFormat`: inconsistent sizes, indices out of
+    /// range, or coordinates that cannot be drawn.
+    pub fn render(&self, format: Format) -> Result<Vec<u8>, FigureError> {
+        let page = FlatPage::of(self, style::PLOT)?;
+        match format {
+            Format::Png => page.to_png(),
+            Format::Svg => page.to_svg().map(String::into_bytes),
+        }
+    }
+}
+
+impl<'a> FlatPage<'a> {
     /// Lays out a page whose plot area has a longer side of `longest` pixels.
-    pub(super) fn of(map: &'a FlatMap<'a>, longest: f64) -> Result<Page<'a>, FigureError> {
+    pub(super) fn of(map: &'a FlatMap<'a>, longest: f64) -> Result<FlatPage<'a>, FigureError> {
         let (low, high) = map.bounds()?;
         let frame = Frame::around(low, high, longest)?;
         let mut flipped: Vec<bool> = map.values.iter().map(|v| *v < 0.0).collect();
@@ -71,7 +72,7 @@ impl<'a> Page<'a> {
             None => Scale::for_errors(upright),
         };
         let colours = if map.mark.is_some() { Colours::MARKED } else { Colours::PLAIN };
-        let bar = Bar::new(&scale, colours, map.scale_label, flipped.iter().filter(|f| **f).count());
+        let bar = ColourBar::new(&scale, colours, map.scale_label, flipped.iter().filter(|f| **f).count());
 
         let left = (style::MARGIN + frame.label_width()).ceil();
         let width = (left + frame.size[0] + bar.width() + style::MARGIN).ceil();
@@ -79,7 +80,7 @@ impl<'a> Page<'a> {
         let above = title.len() as f64 * style::TITLE_LINE + if title.is_empty() { 0.0 } else { style::GAP };
         let top = (style::MARGIN + above).ceil();
         let height = (top + frame.size[1] + Frame::label_height() + style::MARGIN).ceil();
-        Ok(Page {
+        Ok(FlatPage {
             map,
             scale,
             colours,
@@ -97,27 +98,27 @@ impl<'a> Page<'a> {
     }
 
     /// Renders the page at `zoom` pixels per pixel of paper.
-    pub(super) fn sheet(&self, zoom: usize) -> Result<Sheet, FigureError> {
+    pub(super) fn sheet(&self, zoom: usize) -> Result<RenderedSheet, FigureError> {
         let mut pixels = blank_sheet(self.size[0] * zoom as u32, self.size[1] * zoom as u32)?;
         let [x, y] = self.corner.map(|c| c as i32 * zoom as i32);
         pixels.draw_pixmap(x, y, self.picture(zoom)?.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
         let mut drawing = Drawing::default();
         self.surroundings(&mut drawing);
         drawing.paint(&mut pixels, zoom);
-        Ok(Sheet { pixels, middle: self.corner[1] + self.frame.size[1] / 2.0 })
+        Ok(RenderedSheet { pixels, middle: self.corner[1] + self.frame.size[1] / 2.0 })
     }
 
     pub(super) fn to_svg(&self) -> Result<String, FigureError> {
         let mut drawing = Drawing::default();
         if self.map.faces.corners().len() <= VECTOR_CORNERS {
             self.faces(self.corner, |points, fill| {
-                drawing.shapes.push(Shape::Polygon { points, fill, stroke: Some((fill, SEAM)) });
+                drawing.shapes.push(VectorShape::Polygon { points, fill, stroke: Some((fill, SEAM)) });
             });
             self.lines_and_flipped_faces(self.corner, &mut drawing);
         } else {
             let fine = encode_png(&self.picture(PICTURE_ZOOM)?, 1)?;
             let png = if fine.len() <= PICTURE_BYTES { fine } else { encode_png(&self.picture(1)?, 1)? };
-            drawing.shapes.push(Shape::Picture { corner: self.corner, size: self.frame.size, png });
+            drawing.shapes.push(VectorShape::Picture { corner: self.corner, size: self.frame.size, png });
         }
         self.surroundings(&mut drawing);
         Ok(drawing.to_svg(self.size[0], self.size[1]))
@@ -152,7 +153,7 @@ impl<'a> Page<'a> {
         let mut strokes = |only_outline: bool, colour, width| {
             let kept = edges.iter().filter(|(_, single)| *single || !only_outline);
             let segments = kept.map(|(edge, _)| edge.map(|v| self.place(v, corner))).collect();
-            drawing.shapes.push(Shape::Segments { segments, colour, width, round: true });
+            drawing.shapes.push(VectorShape::Segments { segments, colour, width, round: true });
         };
         if face_area > FACE_WITH_EDGES {
             strokes(false, style::MESH, (face_area.sqrt() * 0.05).clamp(0.6, 1.4));
@@ -163,7 +164,7 @@ impl<'a> Page<'a> {
         for face in faces.filter(|f| self.flipped[*f]) {
             let stroke = Some((style::ALARM, ALARM_STROKE));
             let points = self.polygon(face, corner);
-            drawing.shapes.push(Shape::Polygon { points, fill: style::ALARM, stroke });
+            drawing.shapes.push(VectorShape::Polygon { points, fill: style::ALARM, stroke });
         }
     }
 
@@ -189,7 +190,7 @@ impl<'a> Page<'a> {
         let x = (left + self.frame.size[0] / 2.0).min(f64::from(self.size[0]) - half).max(half);
         for (i, line) in self.title.iter().enumerate() {
             let y = style::MARGIN + (i as f64 + 0.4) * style::TITLE_LINE;
-            drawing.text([x, y], Anchor::Middle, style::TITLE, line.as_str());
+            drawing.text([x, y], TextAnchor::Middle, style::TITLE, line.as_str());
         }
         self.frame.draw(self.corner, drawing);
         self.bar.draw([left + self.frame.size[0], top], self.frame.size[1], drawing);

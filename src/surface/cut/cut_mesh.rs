@@ -7,7 +7,7 @@ use crate::surface::topology::Topology;
 use crate::surface::{Faces, Surface, Surrogates, UnionFind};
 
 /// A consistently oriented mesh of triangles or of quads that can be cut and extended.
-pub(in crate::surface) struct Sheet {
+pub(in crate::surface) struct CutMesh {
     /// Number of corners of each face.
     pub arity: usize,
     /// The vertex of each corner, face after face.
@@ -36,7 +36,7 @@ pub(super) struct Pinches {
     pub first: Option<(u32, u32)>,
 }
 
-impl Sheet {
+impl CutMesh {
     /// Takes the faces of `surface` that are not `removed`, flipped as `topology` requires.
     pub fn new(surface: &Surface, topology: &Topology, removed: &[bool]) -> Self {
         let faces = &surface.faces;
@@ -65,7 +65,7 @@ impl Sheet {
             let turned = |&f: &u32| scale(if flip[f as usize] { -1.0 } else { 1.0 }, normals[f as usize]);
             source_face.iter().map(turned).collect()
         });
-        Sheet {
+        CutMesh {
             arity,
             corners,
             twins,

@@ -1,5 +1,5 @@
 use super::colour::Colour;
-use super::drawing::{Anchor, Drawing, Shape};
+use super::drawing::{Drawing, TextAnchor, VectorShape};
 use super::raster::{blank_sheet, encode_png};
 use super::{FigureError, Format, style, text};
 
@@ -138,15 +138,15 @@ impl Diagram {
         let mut top = style::MARGIN;
         for row in self.panels.chunks(columns) {
             let tallest = TALLEST[usize::from(columns > 1)];
-            let frames: Vec<Frame> =
-                row.iter().map(|panel| Frame::of(panel, [width, tallest])).collect::<Result<_, _>>()?;
+            let frames: Vec<PanelFrame> =
+                row.iter().map(|panel| PanelFrame::of(panel, [width, tallest])).collect::<Result<_, _>>()?;
             let titled = row.iter().any(|panel| !panel.title.is_empty());
             let below = top + if titled { style::TITLE_LINE } else { 0.0 };
             let height = frames.iter().map(|frame| frame.height).fold(0.0, f64::max);
             for (i, (panel, frame)) in row.iter().zip(&frames).enumerate() {
                 let left = GUTTER + i as f64 * (width + GUTTER);
                 let middle = [left + width / 2.0, top + 0.4 * style::TITLE_LINE];
-                drawing.text(middle, Anchor::Middle, style::TEXT, panel.title.as_str());
+                drawing.text(middle, TextAnchor::Middle, style::TEXT, panel.title.as_str());
                 let centre = [left + width / 2.0, below + height / 2.0];
                 panel.items.iter().for_each(|item| draw(item, |p| frame.place(p, centre), &mut drawing));
             }
@@ -154,7 +154,7 @@ impl Diagram {
         }
         let room = (WIDTH - 2.0 * style::MARGIN) / style::WIDER_FONT;
         for line in self.caption.lines().flat_map(|line| text::wrap(line, style::TEXT, room, usize::MAX)) {
-            drawing.text([WIDTH / 2.0, top + 0.5 * style::CAPTION_LINE], Anchor::Middle, style::TEXT, line);
+            drawing.text([WIDTH / 2.0, top + 0.5 * style::CAPTION_LINE], TextAnchor::Middle, style::TEXT, line);
             top += style::CAPTION_LINE;
         }
         Ok((drawing, top + style::MARGIN))
@@ -162,14 +162,14 @@ impl Diagram {
 }
 
 /// The transformation from a panel's plane to paper.
-struct Frame {
+struct PanelFrame {
     middle: [f64; 2],
     scale: f64,
     height: f64,
 }
 
-impl Frame {
-    fn of(panel: &Panel, size: [f64; 2]) -> Result<Frame, FigureError> {
+impl PanelFrame {
+    fn of(panel: &Panel, size: [f64; 2]) -> Result<PanelFrame, FigureError> {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let places = panel.items.iter().flat_map(|item| match item {
             Item::Area { points, .. } | Item::Line { points, .. } => points.as_slice(),
@@ -190,7 +190,7 @@ impl Frame {
             return Err(FigureError::PanelExtent { title: panel.title.clone() });
         }
         let middle = [0, 1].map(|k| low[k] / 2.0 + high[k] / 2.0);
-        Ok(Frame { middle, scale, height: extent[1] * scale + 2.0 * PADDING })
+        Ok(PanelFrame { middle, scale, height: extent[1] * scale + 2.0 * PADDING })
     }
 
     fn place(&self, [x, y]: [f64; 2], centre: [f64; 2]) -> [f64; 2] {
@@ -202,7 +202,7 @@ fn draw(item: &Item, place: impl Fn([f64; 2]) -> [f64; 2], drawing: &mut Drawing
     match item {
         Item::Area { points, fill, outline } => {
             let points = points.iter().map(|p| place(*p)).collect();
-            drawing.shapes.push(Shape::Polygon { points, fill: *fill, stroke: *outline });
+            drawing.shapes.push(VectorShape::Polygon { points, fill: *fill, stroke: *outline });
         }
         Item::Line { points, colour, width, style } => {
             let mut points: Vec<[f64; 2]> = points.iter().map(|p| place(*p)).collect();
@@ -214,7 +214,7 @@ fn draw(item: &Item, place: impl Fn([f64; 2]) -> [f64; 2], drawing: &mut Drawing
                 _ => points.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
             };
             let round = *style != LineStyle::Arrow;
-            drawing.shapes.push(Shape::Segments { segments, colour: *colour, width: *width, round });
+            drawing.shapes.push(VectorShape::Segments { segments, colour: *colour, width: *width, round });
         }
         Item::Dot { at, form, colour, size } => {
             let [x, y] = place(*at);
@@ -226,7 +226,7 @@ fn draw(item: &Item, place: impl Fn([f64; 2]) -> [f64; 2], drawing: &mut Drawing
                 Form::Triangle => vec![[-1.1, 0.75], [0.0, -1.2], [1.1, 0.75]],
             };
             let points = corners.iter().map(|[dx, dy]| [x + size * dx, y + size * dy]).collect();
-            drawing.shapes.push(Shape::Polygon { points, fill: *colour, stroke: Some((style::PAPER, 2.0)) });
+            drawing.shapes.push(VectorShape::Polygon { points, fill: *colour, stroke: Some((style::PAPER, 2.0)) });
         }
         Item::Label { at, shift, text, covering } => {
             let [x, y] = place(*at);
@@ -236,7 +236,7 @@ fn draw(item: &Item, place: impl Fn([f64; 2]) -> [f64; 2], drawing: &mut Drawing
                 let [low, high] = [-1.0, 1.0].map(|side| [0, 1].map(|k| middle[k] + side * half[k]));
                 drawing.rectangle(low, high, style::PAPER);
             }
-            drawing.text(middle, Anchor::Middle, style::TEXT, text.as_str());
+            drawing.text(middle, TextAnchor::Middle, style::TEXT, text.as_str());
         }
     }
 }
@@ -254,7 +254,7 @@ fn arrow_head(points: &mut [[f64; 2]], colour: Colour, width: f64, drawing: &mut
     let (ux, uy) = (dx / whole, dy / whole);
     let foot = [tip[0] - length * ux, tip[1] - length * uy];
     let corners = vec![*tip, [foot[0] - half * uy, foot[1] + half * ux], [foot[0] + half * uy, foot[1] - half * ux]];
-    drawing.shapes.push(Shape::Polygon { points: corners, fill: colour, stroke: None });
+    drawing.shapes.push(VectorShape::Polygon { points: corners, fill: colour, stroke: None });
     *tip = [tip[0] - 0.9 * length * ux, tip[1] - 0.9 * length * uy];
 }
 

@@ -9,7 +9,7 @@ use super::{FigureError, style};
 /// # Errors
 /// No pictures; a picture that is not a PNG file of 8-bit RGB pixels; a sheet that is too large.
 pub fn compose(pictures: &[Vec<u8>], columns: usize) -> Result<Vec<u8>, FigureError> {
-    let panels: Vec<Panel> = pictures.iter().map(|png| Panel::decode(png)).collect::<Result<_, _>>()?;
+    let panels: Vec<SheetPicture> = pictures.iter().map(|png| SheetPicture::decode(png)).collect::<Result<_, _>>()?;
     let Some(first) = panels.first() else { return Err(FigureError::NoPanels) };
     let columns = columns.clamp(1, panels.len());
     let mut widths = vec![0; columns];
@@ -34,7 +34,7 @@ pub fn compose(pictures: &[Vec<u8>], columns: usize) -> Result<Vec<u8>, FigureEr
 /// # Errors
 /// As for [`compose`].
 pub fn small_copy(png: &[u8], width: u32) -> Result<Vec<u8>, FigureError> {
-    let Panel { pixels, .. } = Panel::decode(png)?;
+    let SheetPicture { pixels, .. } = SheetPicture::decode(png)?;
     let factor = f64::from(pixels.width()) / f64::from(width.max(1));
     if factor <= 1.0 {
         return encode_indexed(&pixels);
@@ -71,14 +71,14 @@ fn shares(from: u32, to: u32) -> Vec<Vec<(usize, f64)>> {
 }
 
 /// A finished figure.
-struct Panel {
+struct SheetPicture {
     pixels: Pixmap,
     /// Pixels per unit of paper.
     zoom: u32,
 }
 
-impl Panel {
-    fn decode(png: &[u8]) -> Result<Panel, FigureError> {
+impl SheetPicture {
+    fn decode(png: &[u8]) -> Result<SheetPicture, FigureError> {
         let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info()?;
         let info = reader.info();
         let (width, height) = (info.width, info.height);
@@ -92,7 +92,7 @@ impl Panel {
         for (pixel, colour) in pixels.data_mut().chunks_exact_mut(4).zip(rgb.chunks_exact(3)) {
             pixel[..3].copy_from_slice(colour);
         }
-        Ok(Panel { pixels, zoom })
+        Ok(SheetPicture { pixels, zoom })
     }
 }
 
@@ -110,7 +110,7 @@ mod tests {
     fn panels_stand_in_the_middle_of_rows_and_columns() {
         let (red, blue) = ([200, 0, 0], [0, 0, 200]);
         let sheet = compose(&[plain(10, 10, red), plain(4, 6, blue), plain(6, 2, blue)], 2).unwrap();
-        let Panel { pixels, zoom } = Panel::decode(&sheet).unwrap();
+        let SheetPicture { pixels, zoom } = SheetPicture::decode(&sheet).unwrap();
         assert_eq!((pixels.width(), pixels.height(), zoom), (14, 12, 2));
         let at = |x: usize, y: usize| &pixels.data()[(y * 14 + x) * 4..][..3];
         assert_eq!((at(0, 0), at(9, 9), at(10, 2), at(2, 10)), (&red[..], &red[..], &blue[..], &blue[..]));

@@ -1,13 +1,29 @@
-use super::drawing::{Anchor, Drawing, Shape};
-use super::page::Colours;
+use super::colour::{Colour, error_colour, grey};
+use super::drawing::{Drawing, TextAnchor, VectorShape};
 use super::scale::Scale;
 use super::{style, text};
+
+/// The colours of a scale.
+#[derive(Clone, Copy)]
+pub(super) struct Colours {
+    /// The colour of t ∈ [0, 1].
+    pub(super) on_scale: fn(f64) -> Colour,
+    /// The colour of values beyond the scale.
+    pub(super) beyond: Colour,
+}
+
+impl Colours {
+    /// The colour map for distortion.
+    pub(super) const PLAIN: Colours = Colours { on_scale: error_colour, beyond: style::OVER };
+    /// Greys, with [`style::MARK`] beyond the scale.
+    pub(super) const MARKED: Colours = Colours { on_scale: grey, beyond: style::MARK };
+}
 
 /// The colour bar of a [`Scale`], to the right of a plot.
 ///
 /// It has an arrow head for values beyond the scale, tick marks, a label, and a legend for flipped
 /// faces.
-pub(super) struct Bar {
+pub(super) struct ColourBar {
     ticks: Vec<(f64, String)>,
     /// The label of the arrow head.
     beyond: Option<String>,
@@ -26,9 +42,9 @@ const SWATCH: f64 = style::BAR;
 /// Number of strips of different colour: more than there are colours.
 const STRIPS: usize = 400;
 
-impl Bar {
-    pub(super) fn new(scale: &Scale, colours: Colours, label: &str, flipped: usize) -> Bar {
-        Bar {
+impl ColourBar {
+    pub(super) fn new(scale: &Scale, colours: Colours, label: &str, flipped: usize) -> ColourBar {
+        ColourBar {
             ticks: scale.ticks(),
             beyond: scale.exceeded().then(|| format!("> {}", scale.upper_label())),
             label: label.to_owned(),
@@ -63,16 +79,16 @@ impl Bar {
             drawing.rectangle([left, bottom - SWATCH], [right, bottom], style::ALARM);
             drawing.frame([left, bottom - SWATCH], [right, bottom]);
             let middle = [right + 1.5 * style::GAP, bottom - SWATCH / 2.0];
-            drawing.text(middle, Anchor::Start, style::SMALL_TEXT, legend.as_str());
+            drawing.text(middle, TextAnchor::Start, style::SMALL_TEXT, legend.as_str());
             bottom -= 2.0 * SWATCH;
         }
         if let Some(beyond) = &self.beyond {
             let points = vec![[left, top + HEAD], [(left + right) / 2.0, top], [right, top + HEAD]];
             let stroke = Some((style::INK, style::LINE));
-            drawing.shapes.push(Shape::Polygon { points, fill: self.colours.beyond, stroke });
+            drawing.shapes.push(VectorShape::Polygon { points, fill: self.colours.beyond, stroke });
             drawing.text(
                 [text_left, top + HEAD - 1.25 * style::SMALL_TEXT],
-                Anchor::Start,
+                TextAnchor::Start,
                 style::SMALL_TEXT,
                 beyond.as_str(),
             );
@@ -90,14 +106,14 @@ impl Bar {
         for (t, label) in &self.ticks {
             let y = (bottom - length * t).round();
             drawing.line([right, y], [right + style::TICK, y]);
-            drawing.text([text_left, y], Anchor::Start, style::SMALL_TEXT, label.as_str());
+            drawing.text([text_left, y], TextAnchor::Start, style::SMALL_TEXT, label.as_str());
         }
         if !self.label.is_empty() {
             let x = right + self.tick_width() + 2.0 * style::GAP + style::TEXT / 2.0;
             let size = style::TEXT.min(style::TEXT * height / (1.1 * text::width(&self.label, style::TEXT)).max(1.0));
-            drawing.shapes.push(Shape::Text {
+            drawing.shapes.push(VectorShape::Text {
                 middle: [x, (top + bottom) / 2.0],
-                anchor: Anchor::Middle,
+                anchor: TextAnchor::Middle,
                 size,
                 upward: true,
                 text: self.label.clone(),
