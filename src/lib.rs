@@ -94,11 +94,12 @@ pub mod surface;
 
 pub use num_complex;
 
-pub use energy::{ENERGIES, Energy, Expression};
+pub use constraint::Constraint;
+pub use energy::{ENERGIES, Energy, EnergyKind, Expression};
 pub use input::{Input, InputError};
 pub use map::{
-    Boundary, Map, MapError, MapOptions, Mapped, Pin, PinnedPoints, TextureCoordinates, Tiling, Valid, map, map_input,
-    map_surface,
+    Boundary, Flattener, Map, MapError, MapOptions, Mapped, Pin, PinnedPoints, TextureCoordinates, Tiling, Valid, map,
+    map_input, map_surface,
 };
 pub use quad_graph::dual::{DUAL_POINTS, DualPoint};
 pub use report::Report;

@@ -1,16 +1,28 @@
-//! New dual points, backends and surfaces from outside the crate, through the public interface alone.
+//! New dual points, energies, constraints, solvers and surfaces from outside the crate, through the public interface alone.
 
 mod common;
 
+use std::str::FromStr;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use common::*;
 use num_complex::Complex64;
-use riemap::constraint::{Shape, on_shape};
+use riemap::constraint::{ConstraintError, Fixed, Shape, on_shape};
 use riemap::energy::conformal::{self, Weight};
+use riemap::energy::{EnergyError, ExpressionError, Properties, Rest, energy};
+use riemap::map::{Own, SolverChoice};
 use riemap::problem::linear::LinearProblem;
+use riemap::problem::nonlinear::Objective;
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DualPoint};
-use riemap::solver::{LinearSolver, Observer, Phase, Silent, SolveError, Unsuitable, solve_linear};
+use riemap::solver::{
+    LinearSolver, MINIMISERS, MinimiseError, Minimiser, Minimum, Observer, Phase, Silent, SolveError, StopRule,
+    Unsuitable, solve_linear,
+};
 use riemap::surface::generate::{Form, Immersion, Parameter, SurfaceKind, generate_from};
+use riemap::surface::oriented_mesh::OrientedMesh;
+use riemap::{Boundary, Constraint, Energy, EnergyKind, Expression, Input, MapError, MapOptions, Pin, map_input};
 
 /// The symmedian point: barycentric weights a², b², c². Inside every triangle.
 struct Symmedian;
@@ -144,4 +156,133 @@ fn a_new_surface_is_mapped_like_the_others() {
     });
     // order two: a quarter, nearly
     assert!(errors[0] < 0.01 && errors[1] < errors[0] / 3.0, "{errors:?}");
+}
+
+/// An energy of the table by another name, as a user's own.
+struct Renamed(&'static str);
+
+impl EnergyKind for Renamed {
+    fn name(&self) -> &'static str {
+        "own"
+    }
+
+    fn about(&self) -> &'static str {
+        "an energy of the table"
+    }
+
+    fn properties(&self) -> Properties {
+        energy(self.0).expect("of the table").properties()
+    }
+
+    fn make(&self, rest: Rest) -> Result<Box<dyn Energy>, EnergyError> {
+        energy(self.0).expect("of the table").make(rest)
+    }
+}
+
+#[test]
+fn an_own_energy_is_minimised_as_one_of_the_table_is() {
+    let input = Input::open("graph:cos+cos?n=8&mesh=triangle").expect("a surface");
+    for name in ["A", "L"] {
+        let map = |energy: Expression| {
+            let options = MapOptions { boundary: Boundary::FREE, energy: Some(energy), ..MapOptions::default() };
+            map_input(&input, &options, &mut Silent).unwrap_or_else(|error| panic!("{error}")).map
+        };
+        let listed = map(format!("H + 0.5 {name}").parse().expect("an expression"));
+        let conformal: Expression = "H".parse().expect("an expression");
+        let own = map(conformal.plus(0.5, Arc::new(Renamed(name))).expect("a term"));
+        assert_eq!(listed.z, own.z, "{name}");
+        assert_eq!(listed.total, own.total, "{name}");
+    }
+    let twice = Expression::from_str("H").expect("an expression").plus(1.0, Arc::new(Renamed("A")));
+    let twice = twice.and_then(|sum| sum.plus(2.0, Arc::new(Renamed("L"))));
+    assert_eq!(twice, Err(ExpressionError::Twice { name: "own" }));
+}
+
+/// Holds the pins of a list, as the options' own do.
+struct Held(Vec<(u32, Complex64)>);
+
+impl Constraint for Held {
+    fn hold(&self, mesh: &OrientedMesh, _graph: &QuadGraph, fixed: &mut Fixed) -> Result<(), ConstraintError> {
+        self.0.iter().for_each(|&(v, place)| fixed.hold(mesh.copies(v).start, place));
+        Ok(())
+    }
+}
+
+#[test]
+fn an_own_constraint_holds_what_pins_hold() {
+    let input = Input::open("graph:cos+cos?n=8&mesh=triangle").expect("a surface");
+    let places = [(0, Complex64::new(0.0, 0.0)), (8, Complex64::new(2.0, 0.5)), (40, Complex64::new(1.0, 1.5))];
+    let options = MapOptions {
+        energy: Some("H + L".parse().expect("an expression")),
+        boundary: Boundary::FREE,
+        ..MapOptions::default()
+    };
+    let map =
+        |options: &MapOptions| map_input(&input, options, &mut Silent).unwrap_or_else(|error| panic!("{error}")).map;
+    let pins = places.map(|(vertex, z)| Pin { vertex, place: [z.re, z.im] }).to_vec();
+    let pinned = map(&MapOptions { pins, ..options.clone() });
+    let held = map(&MapOptions { constraints: vec![Own::new(Arc::new(Held(places.to_vec())))], ..options.clone() });
+    assert_eq!(pinned.z, held.z);
+    // A vertex that does not exist is an error, and no panic.
+    let far = Own::<dyn Constraint>::new(Arc::new(Nowhere));
+    let error =
+        map_input(&input, &MapOptions { constraints: vec![far], ..options }, &mut Silent).expect_err("no such vertex");
+    assert_eq!(error, MapError::Constraint(ConstraintError::NoSuchVertex { vertex: u32::MAX - 1 }));
+}
+
+/// Holds a vertex that no surface has.
+struct Nowhere;
+
+impl Constraint for Nowhere {
+    fn hold(&self, _mesh: &OrientedMesh, _graph: &QuadGraph, fixed: &mut Fixed) -> Result<(), ConstraintError> {
+        fixed.hold(u32::MAX - 1, Complex64::ZERO);
+        Ok(())
+    }
+}
+
+/// Levenberg–Marquardt, counting how often it is asked.
+struct Counting(AtomicUsize);
+
+impl Minimiser for Counting {
+    fn name(&self) -> &'static str {
+        "counting"
+    }
+
+    fn description(&self) -> &'static str {
+        "Levenberg–Marquardt, counted"
+    }
+
+    fn minimise(
+        &self,
+        objective: &Objective,
+        start: Vec<f64>,
+        rule: StopRule,
+        watch: &mut dyn Observer,
+    ) -> Result<Minimum, MinimiseError> {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        MINIMISERS[0].minimise(objective, start, rule, watch)
+    }
+}
+
+#[test]
+fn own_solvers_are_handed_to_a_map() {
+    let input = Input::open("sphere?n=8&jitter=0.2").expect("a surface");
+    let map =
+        |options: &MapOptions| map_input(&input, options, &mut Silent).unwrap_or_else(|error| panic!("{error}")).map;
+
+    let fixed = MapOptions { boundary: Boundary::FIXED, ..MapOptions::default() };
+    let own = map(&MapOptions { solver: SolverChoice::Linear(Own::new(Arc::new(Relaxation))), ..fixed.clone() });
+    assert_eq!(own.provenance.solver, "relaxation");
+    assert!(largest_difference(&map(&fixed).z, &own.z) < 1e-9);
+
+    let counting = Arc::new(Counting(AtomicUsize::new(0)));
+    let own = Own::<dyn Minimiser>::new(Arc::clone(&counting) as Arc<dyn Minimiser>);
+    let metric = MapOptions {
+        energy: Some("H + L".parse().expect("an expression")),
+        boundary: Boundary::FREE,
+        ..MapOptions::default()
+    };
+    let found = map(&MapOptions { solver: SolverChoice::Minimiser(own), ..metric.clone() });
+    assert_eq!((found.provenance.solver, counting.0.load(Ordering::Relaxed)), ("counting", 1));
+    assert_eq!(map(&MapOptions { solver: MINIMISERS[0].name().into(), ..metric }).z, found.z);
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use num_complex::Complex64;
 use riemap::constraint::{Fixed, Freedoms};
 use riemap::energy::conformal::{Dirichlet, Weight};
-use riemap::energy::{Rest, energy};
+use riemap::energy::{EnergyKind, Rest, energy};
 use riemap::input::Input;
 use riemap::map::{Boundary, MapOptions, Mapped, map_input};
 use riemap::problem::nonlinear::Objective;
@@ -53,7 +53,7 @@ pub fn objective(mapped: &Mapped, names: &[&str]) -> (Objective, Vec<f64>) {
     graph.boundary.iter().for_each(|&v| fixed.hold(v, z[v as usize]));
     let held: Vec<bool> = (0..graph.vertices as u32).map(|v| fixed.holds(v)).collect();
     let rest = Rest { graph, metric: &metric, weight: Weight::Integral, held: &held };
-    let make = |name: &&str| (1.0, (energy(name).expect(name).make)(rest).expect(name));
+    let make = |name: &&str| (1.0, energy(name).expect(name).make(rest).expect(name));
     let freedoms = Freedoms::new(graph.vertices, &fixed);
     let objective =
         Objective { terms: names.iter().map(make).collect(), freedoms, norm: Dirichlet::new(graph, Weight::Integral) };

@@ -73,15 +73,16 @@ pub fn hold_gauge(fixed: &mut Fixed, energy: &Expression, graph: &QuadGraph, z: 
     let at = |v: u32| z[v as usize];
     let away = |v: u32| (at(v) - at(first)).norm();
     let farthest = |boundary: &mut dyn Iterator<Item = u32>| boundary.max_by(|&v, &w| away(v).total_cmp(&away(w)));
-    let far = if energy.has("L") || energy.has("Lb") {
+    if !energy.has_lengths_or_areas() {
+        return;
+    }
+    let far = if energy.joins_diagonal_classes() {
         farthest(&mut graph.boundary.iter().copied())
-    } else if energy.has("A") {
+    } else {
         fixed.hold(next, at(next));
         let (class, _) = graph.diagonal_classes();
         let is_black = |v: &u32| class[*v as usize] == class[first as usize];
         farthest(&mut graph.boundary.iter().copied().filter(is_black))
-    } else {
-        return;
     };
     fixed.hold(first, at(first));
     if let Some(far) = far.filter(|&far| far != first && away(far) > 0.0) {
@@ -93,7 +94,7 @@ pub fn hold_gauge(fixed: &mut Fixed, energy: &Expression, graph: &QuadGraph, z: 
 /// direction that it has in `start`; with A but neither L nor L', a black diagonal.
 pub fn turn_back(energy: &Expression, graph: &QuadGraph, start: &[Complex64], z: &mut [Complex64]) {
     let first = graph.boundary[0];
-    let through = if energy.has("L") || energy.has("Lb") {
+    let through = if energy.joins_diagonal_classes() {
         Some(graph.boundary[1])
     } else {
         graph.quads.iter().find_map(|quad| {

@@ -15,12 +15,26 @@ use std::collections::BTreeMap;
 use num_complex::Complex64;
 
 use crate::quad_graph::QuadGraph;
+use crate::surface::oriented_mesh::OrientedMesh;
 
 /// Vertices of the quad graph that are pinned at given positions or to given lines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fixed {
     places: BTreeMap<u32, Complex64>,
     lines: BTreeMap<u32, Line>,
+}
+
+/// A condition that pins vertices, supplied by the user of the library in
+/// [`MapOptions::constraints`](crate::map::MapOptions::constraints).
+pub trait Constraint: Send + Sync {
+    /// Pins vertices of the quad graph at positions ([`Fixed::hold`]) or to lines ([`Fixed::hold_on_line`]).
+    ///
+    /// The vertices of the graph begin with those of `mesh`; [`OrientedMesh::copies`] finds the vertices
+    /// of the source among them.
+    ///
+    /// # Errors
+    /// The condition has no meaning on this surface.
+    fn hold(&self, mesh: &OrientedMesh, graph: &QuadGraph, fixed: &mut Fixed) -> Result<(), ConstraintError>;
 }
 
 /// The line `point + t direction`, t real.

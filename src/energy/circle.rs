@@ -4,6 +4,7 @@ use num_complex::Complex64;
 
 use super::conformal::Weight;
 use super::{Block, LocalMap, Polynomial, Rest, SquareSum};
+use crate::quad_graph::QuadGraph;
 use crate::sparse::Stencils;
 
 /// The circle energy C: `C = Σ w (|z|² − 1)²` over the boundary vertices that are not pinned.
@@ -18,11 +19,15 @@ pub struct Circle {
 impl Circle {
     /// Makes C of the boundary of the graph.
     pub fn new(rest: Rest) -> Self {
-        let graph = rest.graph;
+        Circle::of_free(rest.graph, rest.weight, |v| !rest.held[v as usize])
+    }
+
+    /// C of the boundary vertices for which `is_free` holds.
+    pub fn of_free(graph: &QuadGraph, weight: Weight, is_free: impl Fn(u32) -> bool) -> Self {
         let n = graph.boundary.len();
         let perimeter = graph.perimeter();
-        let free = || (0..n).filter(|&k| !rest.held[graph.boundary[k] as usize]);
-        let weight = |k: usize| match rest.weight {
+        let free = || (0..n).filter(|&k| is_free(graph.boundary[k]));
+        let weight = |k: usize| match weight {
             Weight::Unit => 1.0,
             Weight::Integral => {
                 let adjacent = graph.boundary_length[k] + graph.boundary_length[(k + n - 1) % n];

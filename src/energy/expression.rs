@@ -1,31 +1,54 @@
 use std::fmt;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use serde::{Deserialize, Deserializer};
 
-use super::{ENERGIES, EnergyRow, energy};
+use super::{ENERGIES, EnergyKind, energy};
 
 /// A sum of energies with coefficients, such as `H + 0.5 L + A`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// The terms in the given order; no energy occurs twice.
-    pub terms: Vec<Term>,
+    terms: Vec<Term>,
 }
 
 /// A coefficient and an energy.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone)]
 pub struct Term {
-    /// The coefficient, ≥ 0.
+    /// The coefficient, finite and ≥ 0.
     pub coefficient: f64,
-    /// Name of the energy.
-    pub name: &'static str,
+    /// The energy.
+    pub energy: Arc<dyn EnergyKind>,
+}
+
+impl PartialEq for Term {
+    fn eq(&self, other: &Self) -> bool {
+        self.coefficient == other.coefficient && self.energy.name() == other.energy.name()
+    }
+}
+
+impl fmt::Debug for Term {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{} {}", self.coefficient, self.energy.name())
+    }
+}
+
+/// The expressions that have methods of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standard {
+    /// H.
+    Conformal,
+    /// H + C.
+    OnCircle,
+    /// H + L'.
+    OfLengths,
 }
 
 /// A text is not an expression.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExpressionError {
     /// No energy has this name.
-    #[error("unknown energy `{name}`; known: {}", ENERGIES.iter().map(|e| e.name).collect::<Vec<_>>().join(", "))]
+    #[error("unknown energy `{name}`; known: {}", ENERGIES.iter().map(EnergyKind::name).collect::<Vec<_>>().join(", "))]
     Unknown {
         /// The name.
         name: String,
@@ -53,24 +76,113 @@ pub enum ExpressionError {
 }
 
 impl Expression {
-    /// Returns the sum of the energies with these names, all with coefficient 1.
-    pub fn of(names: &[&'static str]) -> Self {
-        Expression { terms: names.iter().map(|&name| Term { coefficient: 1.0, name }).collect() }
+    /// The sum of energies of the table, each with the coefficient 1.
+    fn of(names: &[&str]) -> Self {
+        let row = |name: &&str| Some(Term { coefficient: 1.0, energy: Arc::new(*energy(name)?) });
+        Expression { terms: names.iter().filter_map(row).collect() }
     }
 
-    /// Whether the energy occurs with a positive coefficient.
-    pub fn has(&self, name: &str) -> bool {
-        self.terms.iter().any(|t| t.name == name && t.coefficient > 0.0)
+    /// A standard expression, with coefficients 1.
+    pub fn standard(standard: Standard) -> Self {
+        Expression::of(match standard {
+            Standard::Conformal => &["H"],
+            Standard::OnCircle => &["H", "C"],
+            Standard::OfLengths => &["H", "Lb"],
+        })
+    }
+
+    /// Which standard expression it is, whatever the coefficients.
+    pub fn as_standard(&self) -> Option<Standard> {
+        let mut names: Vec<&str> = self.energies().map(EnergyKind::name).collect();
+        names.sort_unstable();
+        match names[..] {
+            ["H"] => Some(Standard::Conformal),
+            ["C", "H"] => Some(Standard::OnCircle),
+            ["H", "Lb"] => Some(Standard::OfLengths),
+            _ => None,
+        }
+    }
+
+    /// The same sum and one term more, of an energy of the table or of one's own.
+    ///
+    /// # Errors
+    /// A coefficient that is negative or not finite; an energy of a name that occurs already.
+    pub fn plus(mut self, coefficient: f64, energy: Arc<dyn EnergyKind>) -> Result<Self, ExpressionError> {
+        let name = energy.name();
+        if !(coefficient >= 0.0 && coefficient.is_finite()) {
+            return Err(ExpressionError::Coefficient { name, coefficient });
+        }
+        if self.terms.iter().any(|term| term.energy.name() == name) {
+            return Err(ExpressionError::Twice { name });
+        }
+        self.terms.push(Term { coefficient, energy });
+        Ok(self)
+    }
+
+    /// The terms in the order given, no energy twice, those with the coefficient 0 included.
+    pub fn terms(&self) -> &[Term] {
+        &self.terms
+    }
+
+    /// The energies that occur with positive coefficients.
+    pub fn energies(&self) -> impl Iterator<Item = &dyn EnergyKind> + '_ {
+        self.terms.iter().filter(|term| term.coefficient > 0.0).map(|term| &*term.energy)
+    }
+
+    /// Whether all coefficients are 1.
+    pub fn is_even(&self) -> bool {
+        self.terms.iter().all(|term| term.coefficient == 1.0)
+    }
+
+    /// Whether it fixes the scale of the map.
+    pub fn fixes_scale(&self) -> bool {
+        self.energies().any(|energy| energy.properties().fixes_scale)
+    }
+
+    /// Whether lengths or areas enter by polynomials, which admit flipped faces.
+    pub fn has_lengths_or_areas(&self) -> bool {
+        self.energies().map(EnergyKind::properties).any(|is| is.fixes_scale && !is.flip_free)
+    }
+
+    /// Whether lengths or areas of the interior enter by polynomials.
+    pub fn has_inner_lengths_or_areas(&self) -> bool {
+        self.energies().map(EnergyKind::properties).any(|is| is.fixes_scale && !is.flip_free && !is.boundary_only)
+    }
+
+    /// Whether it keeps the lengths of the boundary edges.
+    pub fn keeps_boundary_lengths(&self) -> bool {
+        self.energies().map(EnergyKind::properties).any(|is| is.fixes_scale && is.boundary_only)
+    }
+
+    /// Whether a term that admits flipped faces sees how the two diagonal classes of vertices lie to each other.
+    pub fn joins_diagonal_classes(&self) -> bool {
+        self.energies().map(EnergyKind::properties).any(|is| !is.diagonals_only && !is.flip_free && !is.on_circle)
+    }
+
+    /// Whether it draws the boundary to the unit circle.
+    pub fn is_on_circle(&self) -> bool {
+        self.energies().any(|energy| energy.properties().on_circle)
+    }
+
+    /// Whether it says where inner vertices are.
+    pub fn determines_interior(&self) -> bool {
+        self.energies().any(|energy| energy.properties().determines_interior)
     }
 
     /// Whether the sum is +∞ for maps with flipped faces.
     pub fn is_flip_free(&self) -> bool {
-        self.rows().any(|row| row.flip_free)
+        self.energies().any(|energy| energy.properties().flip_free)
     }
 
-    /// The table entries of the energies with positive coefficients.
-    pub fn rows(&self) -> impl Iterator<Item = &'static EnergyRow> + '_ {
-        self.terms.iter().filter(|t| t.coefficient > 0.0).filter_map(|t| energy(t.name))
+    /// Whether all terms are sums over triangles that are +∞ where one is flipped.
+    pub fn is_of_triangles(&self) -> bool {
+        self.energies().all(|energy| energy.properties().flip_free)
+    }
+
+    /// Whether the lengths of the boundary are stiff beside H: with integral weights they are, and far from a solution the energy has long
+    /// narrow valleys.
+    pub fn is_stiff(&self) -> bool {
+        self.keeps_boundary_lengths() && self.energies().any(|energy| energy.name() == "H")
     }
 }
 
@@ -78,7 +190,7 @@ impl FromStr for Expression {
     type Err = ExpressionError;
 
     fn from_str(text: &str) -> Result<Self, ExpressionError> {
-        let mut terms: Vec<Term> = Vec::new();
+        let mut sum = Expression { terms: Vec::new() };
         for part in split_terms(text) {
             let part = part.trim();
             let wrong = || ExpressionError::Term { term: part.to_owned() };
@@ -87,15 +199,9 @@ impl FromStr for Expression {
             let number = number.trim().trim_end_matches('*').trim();
             let coefficient = if number.is_empty() { 1.0 } else { number.parse().map_err(|_| wrong())? };
             let row = energy(name.trim()).ok_or_else(|| ExpressionError::Unknown { name: name.trim().to_owned() })?;
-            if !(coefficient >= 0.0 && f64::is_finite(coefficient)) {
-                return Err(ExpressionError::Coefficient { name: row.name, coefficient });
-            }
-            if terms.iter().any(|t| t.name == row.name) {
-                return Err(ExpressionError::Twice { name: row.name });
-            }
-            terms.push(Term { coefficient, name: row.name });
+            sum = sum.plus(coefficient, Arc::new(*row))?;
         }
-        Ok(Expression { terms })
+        Ok(sum)
     }
 }
 
@@ -131,8 +237,8 @@ impl fmt::Display for Expression {
         for (k, term) in self.terms.iter().enumerate() {
             let plus = if k == 0 { "" } else { " + " };
             match term.coefficient {
-                1.0 => write!(out, "{plus}{}", term.name)?,
-                c => write!(out, "{plus}{c} {}", term.name)?,
+                1.0 => write!(out, "{plus}{}", term.energy.name())?,
+                c => write!(out, "{plus}{c} {}", term.energy.name())?,
             }
         }
         Ok(())
@@ -155,7 +261,8 @@ mod tests {
             assert_eq!(text.parse::<Expression>().unwrap().to_string(), text);
         }
         let e: Expression = "1e-3H+1e+2*C".parse().unwrap();
-        assert_eq!(e.terms, [Term { coefficient: 1e-3, name: "H" }, Term { coefficient: 100.0, name: "C" }]);
+        let terms: Vec<_> = e.terms().iter().map(|term| (term.coefficient, term.energy.name())).collect();
+        assert_eq!(terms, [(1e-3, "H"), (100.0, "C")]);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use num_complex::Complex64;
 
 use super::conformal::{NonPositiveRho, Weight, weights};
 use super::{Block, LocalMap, Polynomial, Rest, SquareSum};
+use crate::quad_graph::QuadGraph;
 use crate::sparse::Stencils;
 
 /// The metric energies L and L': `Σ w (|zi − zj|² − l²)²` over edges with rest lengths l.
@@ -32,14 +33,18 @@ impl Metric {
 
     /// Makes L', over the boundary edges of the quad graph.
     pub fn boundary_edges(rest: Rest) -> Self {
-        let graph = rest.graph;
+        Metric::of_boundary(rest.graph, rest.weight)
+    }
+
+    /// L' of a quad graph.
+    pub fn of_boundary(graph: &QuadGraph, weight: Weight) -> Self {
         let n = graph.boundary.len();
         let radius = graph.perimeter() / TAU;
         let edges = (0..n).map(|k| {
             let length = graph.boundary_length[k];
             ([graph.boundary[k], graph.boundary[(k + 1) % n]], length, radius * length)
         });
-        Self::new("Lb", rest.weight, edges)
+        Self::new("Lb", weight, edges)
     }
 
     /// Makes L' over the boundary edges of the mesh; on triangle meshes each consists of two edges

@@ -20,13 +20,14 @@ mod symmetric_dirichlet;
 mod triangle_sum;
 mod unfolding;
 
+pub use crate::sparse::Stencils;
 pub use affine::{Derivatives, Triangles};
 pub use authalic::Authalic;
 pub use barrier::{Clearance, Gaps, Order};
 pub use circle::Circle;
 pub use conformal::Conformal;
 pub use error::EnergyError;
-pub use expression::{Expression, ExpressionError, Term};
+pub use expression::{Expression, ExpressionError, Standard, Term};
 pub use metric::Metric;
 pub use mips::{Mips, MipsDensity};
 pub use polynomial::Polynomial;
@@ -39,7 +40,6 @@ use num_complex::Complex64;
 
 use crate::quad_graph::QuadGraph;
 use crate::quad_graph::metric::RestMetric;
-use crate::sparse::Stencils;
 use conformal::Weight;
 
 /// The second derivatives of a piece with respect to (Re z, Im z) of its vertices in turn. Rows and
@@ -118,70 +118,121 @@ pub struct Rest<'a> {
     pub held: &'a [bool],
 }
 
-/// An entry of the table of energies.
-pub struct EnergyRow {
-    /// The name in expressions.
-    pub name: &'static str,
-    /// A description of one line.
-    pub about: &'static str,
-    /// Whether it depends on lengths or areas and thus fixes the scale of the map.
-    pub metric: bool,
-    /// Whether it is +∞ for maps with flipped faces; a minimisation must then start from a map
-    /// without any.
+/// What an energy sees of a map. From these follow the gauge, the start and the methods that suit; no code outside this module
+/// asks for the name of an energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Properties {
+    /// It sees lengths or areas, and so fixes the scale of the map.
+    pub fixes_scale: bool,
+    /// It sees only differences along diagonals of quads, so that the two diagonal classes of vertices may move against each other.
+    pub diagonals_only: bool,
+    /// It sees the boundary alone.
+    pub boundary_only: bool,
+    /// It draws the boundary to the unit circle.
+    pub on_circle: bool,
+    /// It has one minimum, or isolated ones, once the boundary or a gauge is held: it alone says where inner vertices are.
+    pub determines_interior: bool,
+    /// It is +∞ where a face is flipped, and sees the vertices of the mesh alone: a minimisation must start from a map without flipped faces.
     pub flip_free: bool,
-    /// Makes the energy.
-    pub make: fn(Rest) -> Result<Box<dyn Energy>, EnergyError>,
 }
+
+/// An energy before it is made for a surface: a row of [`ENERGIES`], or one's own, handed to a map by [`Expression::plus`].
+pub trait EnergyKind: Send + Sync {
+    /// Its name in expressions and reports.
+    fn name(&self) -> &'static str;
+
+    /// One line for `riemap list`.
+    fn about(&self) -> &'static str;
+
+    /// What it sees of a map.
+    fn properties(&self) -> Properties;
+
+    /// The energy on a surface.
+    ///
+    /// # Errors
+    /// Weights or rest areas that are undefined.
+    fn make(&self, rest: Rest) -> Result<Box<dyn Energy>, EnergyError>;
+}
+
+/// An energy of the table.
+#[derive(Clone, Copy)]
+pub struct EnergyRow {
+    name: &'static str,
+    about: &'static str,
+    properties: Properties,
+    make: fn(Rest) -> Result<Box<dyn Energy>, EnergyError>,
+}
+
+impl EnergyKind for EnergyRow {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn about(&self) -> &'static str {
+        self.about
+    }
+
+    fn properties(&self) -> Properties {
+        self.properties
+    }
+
+    fn make(&self, rest: Rest) -> Result<Box<dyn Energy>, EnergyError> {
+        (self.make)(rest)
+    }
+}
+
+/// Of no energy.
+const NONE: Properties = Properties {
+    fixes_scale: false,
+    diagonals_only: false,
+    boundary_only: false,
+    on_circle: false,
+    determines_interior: false,
+    flip_free: false,
+};
 
 /// The table of all energies.
 pub static ENERGIES: &[EnergyRow] = &[
     EnergyRow {
         name: "H",
         about: "conformal: Σ w |z3 − z1 − iρ(z2 − z0)|²",
-        metric: false,
-        flip_free: false,
+        properties: Properties { diagonals_only: true, determines_interior: true, ..NONE },
         make: |rest| Ok(Box::new(Conformal::new(rest)?)),
     },
     EnergyRow {
         name: "C",
         about: "circle: Σ over free boundary vertices (|z|² − 1)²",
-        metric: false,
-        flip_free: false,
+        properties: Properties { boundary_only: true, on_circle: true, ..NONE },
         make: |rest| Ok(Box::new(Circle::new(rest))),
     },
     EnergyRow {
         name: "A",
         about: "authalic: Σ over quads (area² − rest area²)²",
-        metric: true,
-        flip_free: false,
+        properties: Properties { fixes_scale: true, diagonals_only: true, ..NONE },
         make: |rest| Ok(Box::new(Authalic::new(rest)?)),
     },
     EnergyRow {
         name: "L",
         about: "metric: Σ over edges of the quad graph (|zi − zj|² − |vi − vj|²)²",
-        metric: true,
-        flip_free: false,
+        properties: Properties { fixes_scale: true, determines_interior: true, ..NONE },
         make: |rest| Ok(Box::new(Metric::all_edges(rest)?)),
     },
     EnergyRow {
         name: "Lb",
         about: "L': as L, over the boundary edges",
-        metric: true,
-        flip_free: false,
+        properties: Properties { fixes_scale: true, boundary_only: true, ..NONE },
         make: |rest| Ok(Box::new(Metric::boundary_edges(rest))),
     },
     EnergyRow {
         name: "MIPS",
         about: "conformal without folds: Σ over triangles (quads: their corners) ½(σ1/σ2 + σ2/σ1) − 1; +∞ where one is turned over",
-        metric: false,
-        flip_free: true,
+        properties: Properties { determines_interior: true, flip_free: true, ..NONE },
         make: |rest| Ok(Box::new(Mips::new(rest)?)),
     },
     EnergyRow {
         name: "SD",
         about: "isometric without folds: Σ over triangles (quads: their corners) σ1² + σ2² + σ1⁻² + σ2⁻² − 4, the symmetric Dirichlet energy",
-        metric: true,
-        flip_free: true,
+        properties: Properties { fixes_scale: true, determines_interior: true, flip_free: true, ..NONE },
         make: |rest| Ok(Box::new(SymmetricDirichlet::new(rest)?)),
     },
 ];

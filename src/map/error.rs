@@ -24,6 +24,17 @@ pub enum MapError {
     /// The surface is not a disc, and the opening that was asked for does not make it one.
     #[error("the surface cannot be mapped: {0}")]
     NoDisc(#[from] CutError),
+    /// Another number of places than of boundary vertices.
+    #[error("{places} places are given for the {boundary} vertices of the boundary; give one for each, in order")]
+    PlaceCount {
+        /// Number of places.
+        places: usize,
+        /// Number of boundary vertices.
+        boundary: usize,
+    },
+    /// A periodic map of a surface that was opened to a disc.
+    #[error("the surface was opened to a disc, and a periodic map is one of a closed surface")]
+    NotADiscMap,
     /// ρ from normals was requested, and some face has none.
     #[error("face {face} has no usable normal, and ρ from normals needs one for every face")]
     NoNormal {

@@ -3,10 +3,8 @@
 use num_complex::Complex64;
 
 use super::MapError;
-use super::options::hold_pins;
 use super::setup::Setup;
 use crate::constraint::{Fixed, hold_gauge, spread_points};
-use crate::energy::Expression;
 use crate::quad_graph::QuadGraph;
 
 /// What is held while the energy is minimised (design: the table of §3), at the places of `z`.
@@ -14,25 +12,25 @@ use crate::quad_graph::QuadGraph;
 /// # Errors
 /// Pins that are not in use; a shape that the boundary is too short for.
 pub(super) fn held(setup: &Setup, z: &[Complex64]) -> Result<Fixed, MapError> {
-    let Setup { options, domain, expression, normalisation } = setup;
+    let Setup { options, domain, expression, normalisation, .. } = setup;
     let (disc, graph) = (&domain.disc, &domain.graph);
     if options.boundary.is_fixed() {
         return options.fixed(disc, graph);
     }
     let mut fixed = Fixed::default();
-    hold_pins(&mut fixed, disc, &options.pins)?;
-    let metric = expression.rows().any(|row| row.metric);
-    if !fixed.is_empty() {
+    options.hold(&mut fixed, disc, graph)?;
+    let fixes_scale = expression.fixes_scale();
+    if options.holds_more() {
         return Ok(fixed);
     }
-    match (expression.has("C"), metric) {
+    match (expression.is_on_circle(), fixes_scale) {
         (true, false) => return Ok(normalisation.fixed(graph)),
         (true, true) => {
             let first = graph.boundary[0];
             fixed.hold_on_line(first, Complex64::ZERO, z[first as usize]);
         }
-        (false, _) if expression.is_flip_free() && !["A", "L", "Lb"].iter().any(|name| expression.has(name)) => {
-            hold_mesh_gauge(&mut fixed, expression, graph, z);
+        (false, _) if expression.is_flip_free() && !expression.has_lengths_or_areas() => {
+            hold_mesh_gauge(&mut fixed, fixes_scale, graph, z);
         }
         (false, _) => hold_gauge(&mut fixed, expression, graph, z),
     }
@@ -41,9 +39,9 @@ pub(super) fn held(setup: &Setup, z: &[Complex64]) -> Result<Fixed, MapError> {
 
 /// Holds what rigid motions leave free where no other gauge does (energies of lengths), or similarities (of angles alone), at the mesh's
 /// boundary: a vertex and the direction from it to the farthest one, see [`hold_gauge`]; or two vertices opposite each other.
-pub(super) fn hold_mesh_gauge(fixed: &mut Fixed, expression: &Expression, graph: &QuadGraph, z: &[Complex64]) {
+pub(super) fn hold_mesh_gauge(fixed: &mut Fixed, fixes_scale: bool, graph: &QuadGraph, z: &[Complex64]) {
     let at = |v: u32| z[v as usize];
-    if expression.rows().any(|row| row.metric) {
+    if fixes_scale {
         let mut mesh = graph.boundary.iter().copied().filter(|&v| !graph.is_dual(v));
         let Some(first) = mesh.next() else { return };
         let away = |v: u32| (at(v) - at(first)).norm();

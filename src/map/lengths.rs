@@ -93,7 +93,7 @@ pub(super) fn prescribe(
 ) -> Result<Option<Prescribed>, LengthsError> {
     let Some(given) = options.boundary_lengths() else { return Ok(None) };
     let expression = options.expression();
-    if !expression.has("Lb") {
+    if !expression.keeps_boundary_lengths() {
         return Err(LengthsError::NotKept { energy: expression.to_string() });
     }
     let values = in_order(given, disc)?;

@@ -5,7 +5,9 @@ mod boundary_energy;
 mod convex_start;
 mod domain;
 mod error;
+mod flattener;
 mod gauge;
+mod kept_factor;
 mod lengths;
 mod mapped;
 mod method;
@@ -22,11 +24,12 @@ mod torus;
 
 pub use domain::Domain;
 pub use error::{Clash, MapError};
+pub use flattener::Flattener;
 pub use lengths::{LengthsError, LengthsRecord, Prescribed};
 pub use mapped::Mapped;
 pub use options::{
-    Boundary, BoundaryName, FlatOptions, Hold, Interior, MapOptions, OptionsError, Outline, Pin, PinnedPoints,
-    RhoSource, Start, Valid, ValidName,
+    Boundary, BoundaryName, FlatOptions, Hold, Interior, MapOptions, OptionsError, Outline, Own, Pin, PinnedPoints,
+    RhoSource, SolverChoice, Start, Valid, ValidName,
 };
 pub use periodic::Tiling;
 pub use pipeline::{map, map_input, map_surface};

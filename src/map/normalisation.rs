@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use super::options::hold_pins;
 use super::setup::is_circle;
 use super::{Domain, MapError, MapOptions};
 use crate::constraint::{Fixed, on_circle, spread_points};
@@ -39,11 +38,11 @@ impl Normalisation {
             return Ok(Normalisation::default());
         }
         let Domain { disc, graph, .. } = domain;
-        if !options.pins.is_empty() {
+        if options.holds_more() {
             return Normalisation::of_pins(options, disc, graph);
         }
         // With lengths or areas in the energy only a rotation is free, and the direction of one point fixes it.
-        if expression.rows().any(|row| row.metric) {
+        if expression.fixes_scale() {
             return Ok(Normalisation { points: vec![(0, 0.0)], exact: false });
         }
         let positions = spread_points(graph, options.pinned_points().count());
@@ -61,7 +60,7 @@ impl Normalisation {
     /// The points of pins on the boundary.
     fn of_pins(options: &MapOptions, disc: &OrientedMesh, graph: &QuadGraph) -> Result<Self, MapError> {
         let mut fixed = Fixed::default();
-        hold_pins(&mut fixed, disc, &options.pins)?;
+        options.hold(&mut fixed, disc, graph)?;
         let mut is_boundary = vec![false; graph.vertices];
         for &v in &graph.boundary {
             is_boundary[v as usize] = true;

@@ -1,12 +1,15 @@
 //! From a surface to its map: diagnosis, opening, quad graph, solution, distortion.
 
 use super::mapped::measure;
+use super::periodic::PeriodicMap;
 use super::{Boundary, Domain, Map, MapError, MapOptions, Mapped, domain, solve};
 use crate::input::Input;
 use crate::solver::{Observer, Phase, Silent};
 use crate::surface::Surface;
+use crate::surface::cut::CutRecord;
 use crate::surface::oriented_mesh::OrientedMesh;
-use crate::surface::topology::diagnosis::{Diagnosis, Severity};
+use crate::surface::topology::Component;
+use crate::surface::topology::diagnosis::{Diagnosis, Finding, Severity};
 
 /// Maps a mesh given by arrays to the plane.
 ///
@@ -48,35 +51,58 @@ pub fn map_surface(surface: &Surface, options: &MapOptions) -> Result<Mapped, Ma
 /// As for [`map_surface`].
 pub fn map_input(input: &Input, options: &MapOptions, observer: &mut dyn Observer) -> Result<Mapped, MapError> {
     observer.phase(Phase::Assemble);
-    let diagnosis = options.forgiving(input.diagnosis())?;
-    let is_periodic = options.boundary == Boundary::Periodic;
-    let (mut disc, cut) = if is_periodic {
-        options.check_periodic()?;
-        OrientedMesh::closed(&input.surface, &diagnosis, options.fill_holes)?
-    } else {
-        OrientedMesh::open(&input.surface, &diagnosis, &options.opening())?
-    };
-    options.shape_flat_faces(&mut disc);
-    let planes = domain::planes(input, &diagnosis, &disc, options)?;
-    let Diagnosis { topology, mut findings } = diagnosis;
-    // What was fatal is mended: the cut's record says how.
-    findings.retain(|finding| finding.severity() != Severity::Fatal);
-    // A disc has one component.
-    let component = topology.components[0].clone();
-    drop(topology);
-    let domain = Domain::with_planes(disc, planes, options)?;
-    let (map, torus) = if is_periodic {
-        let (map, torus) = options.periodic(&domain, observer)?;
+    let prepared = Prepared::new(input, options)?;
+    let domain = &prepared.domain;
+    let (map, torus) = if options.boundary == Boundary::Periodic {
+        let (map, torus) = options.periodic(domain, observer)?;
         (map, Some(torus))
     } else {
         // The exact map is that of the whole surface.
-        let exact = input.exact.as_deref().filter(|_| cut.is_empty());
-        (options.map(&domain, exact, observer)?, None)
+        let exact = input.exact.as_deref().filter(|_| prepared.cut.is_empty());
+        (options.map(domain, exact, observer)?, None)
     };
-    observer.phase(Phase::Measure);
-    let (distortion, validity) = measure(&domain, &map, torus.as_ref());
-    let source_vertices = input.surface.positions.len();
-    Ok(Mapped { source_vertices, findings, component, cut, domain, map, torus, distortion, validity })
+    Ok(prepared.mapped(map, torus, observer))
+}
+
+/// A surface made ready to be mapped, and what was found on the way.
+#[derive(Clone, Debug)]
+pub(super) struct Prepared {
+    source_vertices: usize,
+    findings: Vec<Finding>,
+    component: Component,
+    pub cut: CutRecord,
+    pub domain: Domain,
+}
+
+impl Prepared {
+    /// Diagnoses and opens the surface, and measures ρ.
+    pub fn new(input: &Input, options: &MapOptions) -> Result<Self, MapError> {
+        let diagnosis = options.forgiving(input.diagnosis())?;
+        let (mut disc, cut) = if options.boundary == Boundary::Periodic {
+            options.check_periodic()?;
+            OrientedMesh::closed(&input.surface, &diagnosis, options.fill_holes)?
+        } else {
+            OrientedMesh::open(&input.surface, &diagnosis, &options.opening())?
+        };
+        options.shape_flat_faces(&mut disc);
+        let planes = domain::planes(input, &diagnosis, &disc, options)?;
+        let Diagnosis { topology, mut findings } = diagnosis;
+        // What was fatal is mended: the cut's record says how.
+        findings.retain(|finding| finding.severity() != Severity::Fatal);
+        // A disc has one component.
+        let component = topology.components[0].clone();
+        drop(topology);
+        let domain = Domain::with_planes(disc, planes, options)?;
+        Ok(Prepared { source_vertices: input.surface.positions.len(), findings, component, cut, domain })
+    }
+
+    /// The surface with its map, measured.
+    pub fn mapped(self, map: Map, torus: Option<PeriodicMap>, observer: &mut dyn Observer) -> Mapped {
+        observer.phase(Phase::Measure);
+        let Prepared { source_vertices, findings, component, cut, domain } = self;
+        let (distortion, validity) = measure(&domain, &map, torus.as_ref());
+        Mapped { source_vertices, findings, component, cut, domain, map, torus, distortion, validity }
+    }
 }
 
 impl MapOptions {
@@ -91,6 +117,6 @@ impl MapOptions {
         exact: Option<&[[f64; 2]]>,
         observer: &mut dyn Observer,
     ) -> Result<Map, MapError> {
-        solve::solve(self, domain, exact, observer)
+        solve::solve(self, domain, None, exact, observer)
     }
 }

@@ -1,11 +1,16 @@
 //! The problem that every method is given.
 
+use std::sync::Arc;
+
 use num_complex::Complex64;
 
+use super::kept_factor::KeptFactor;
 use super::normalisation::Normalisation;
 use super::{Boundary, Domain, Map, MapError, MapOptions, Start, Valid};
 use crate::distortion::{Image, face_maps};
 use crate::energy::Expression;
+use crate::laplacian::{ConformalLaplacian, LaplacianError};
+use crate::solver::Observer;
 
 /// The mean of σ1/σ2 above which a circle map is nothing to keep though it folds no face: on coarse meshes with ragged boundaries H is
 /// least where some faces are drawn out to needles. Of 200 discs cut out of public meshes 74 had plain maps that fold nothing; 58 of these
@@ -18,6 +23,8 @@ pub(super) struct Setup<'a> {
     pub options: &'a MapOptions,
     /// The surface with its quad graph.
     pub domain: &'a Domain,
+    /// Keeps the factor of the conformal Laplacian for other maps of the domain.
+    pub factor: Option<&'a KeptFactor>,
     /// The energy.
     pub expression: Expression,
     /// Circle maps: the boundary points that are held.
@@ -25,6 +32,14 @@ pub(super) struct Setup<'a> {
 }
 
 impl Setup<'_> {
+    /// The conformal Laplacian of the domain with its factor: the one that is kept, or a new one.
+    pub fn laplacian(&self, watch: &mut dyn Observer) -> Result<Arc<ConformalLaplacian>, LaplacianError> {
+        match self.factor {
+            Some(kept) => kept.get(&self.domain.graph, watch),
+            None => KeptFactor::default().get(&self.domain.graph, watch),
+        }
+    }
+
     /// Whether the energy draws the boundary to the unit circle.
     pub fn is_circle(&self) -> bool {
         is_circle(self.options, &self.expression)
@@ -35,12 +50,10 @@ impl Setup<'_> {
         let Setup { options, expression, .. } = self;
         let tolerance = options.tolerance;
         match () {
-            () if options.is_ordered() && !expression.has("C") => {
+            () if options.is_ordered() && !expression.is_on_circle() => {
                 Err(MapError::NoCircle { energy: expression.to_string() })
             }
-            () if !expression.has("H") && !expression.has("L") && !expression.is_flip_free() => {
-                Err(MapError::Undetermined { energy: expression.to_string() })
-            }
+            () if !expression.determines_interior() => Err(MapError::Undetermined { energy: expression.to_string() }),
             () if !(tolerance > 0.0 && tolerance < 1.0) => Err(MapError::Tolerance { tolerance }),
             () => Ok(()),
         }
@@ -51,11 +64,13 @@ impl Setup<'_> {
         let Setup { options, expression, .. } = self;
         options.start == Start::Auto
             && !options.boundary.is_fixed()
-            && options.pins.is_empty()
-            && !expression.has("C")
+            && !options.holds_more()
+            && !expression.is_on_circle()
             && match expression.is_flip_free() {
-                true => expression.rows().all(|row| row.flip_free && row.metric),
-                false => expression.has("A") || expression.has("L"),
+                true => {
+                    expression.is_of_triangles() && expression.energies().all(|energy| energy.properties().fixes_scale)
+                }
+                false => expression.has_inner_lengths_or_areas(),
             }
     }
 
@@ -88,5 +103,5 @@ impl Setup<'_> {
 
 /// Whether `expression` draws a free boundary to the unit circle.
 pub(super) fn is_circle(options: &MapOptions, expression: &Expression) -> bool {
-    expression.has("C") && !options.boundary.is_fixed()
+    expression.is_on_circle() && !options.boundary.is_fixed()
 }

@@ -1,6 +1,7 @@
 //! The order of things: boundary method → minimisation → local unflipping → bijective replacement.
 
 use super::bijective;
+use super::kept_factor::KeptFactor;
 use super::method::minimise::Effort;
 use super::method::{Attempt, boundary, convex, direct, minimise};
 use super::normalisation::Normalisation;
@@ -17,10 +18,12 @@ use crate::solver::boundary::{BoundaryError, TwoCirclesError};
 /// eight times the memory.
 const MOST_FOR_MINIMISER: usize = 300_000;
 
-/// The map of a domain. `exact` are exact conformal coordinates, one per vertex of the source.
+/// The map of a domain. `factor` keeps the factor of its conformal Laplacian, `exact` are exact conformal coordinates, one pair for each
+/// vertex of the source.
 pub(super) fn solve(
     options: &MapOptions,
     domain: &Domain,
+    factor: Option<&KeptFactor>,
     exact: Option<&[[f64; 2]]>,
     watch: &mut dyn Observer,
 ) -> Result<Map, MapError> {
@@ -30,7 +33,7 @@ pub(super) fn solve(
         Ok(normalisation) => (normalisation, None),
         Err(error) => (Normalisation::default(), Some(error)),
     };
-    let setup = Setup { options, domain, expression, normalisation };
+    let setup = Setup { options, domain, factor, expression, normalisation };
 
     if let Attempt::Solved(map) = convex::solve(&setup, watch)? {
         return Ok(*map);

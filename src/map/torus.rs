@@ -1,5 +1,6 @@
-use super::{Domain, Map, MapError, MapOptions};
+use super::{Domain, Map, MapError, MapOptions, SolverChoice};
 use crate::constraint::Fixed;
+use crate::energy::Standard;
 use crate::map::periodic::{PeriodicMap, periodic};
 use crate::solver::Observer;
 
@@ -7,14 +8,14 @@ impl MapOptions {
     /// Fails where something is asked for that periodic maps do not have.
     pub(super) fn check_periodic(&self) -> Result<(), MapError> {
         let expression = self.expression();
-        if expression.terms.iter().any(|term| term.name != "H") {
+        if expression.as_standard() != Some(Standard::Conformal) {
             return Err(MapError::PeriodicEnergy { energy: expression.to_string() });
         }
-        if !self.pins.is_empty() {
+        if self.holds_more() {
             return Err(MapError::PeriodicPins);
         }
-        if self.solver != "auto" {
-            return Err(MapError::PeriodicSolver { name: self.solver.clone() });
+        if self.solver != SolverChoice::Auto {
+            return Err(MapError::PeriodicSolver { name: self.solver.name().to_owned() });
         }
         if self.cut || !self.remove_faces.is_empty() {
             return Err(MapError::PeriodicOpening);

@@ -16,7 +16,7 @@ pub use periods::{Periods, PeriodsError};
 pub(crate) use tangent::own_normal;
 pub use tangent::{RestSource, TangentPlanes};
 pub use triangles::RestTriangle;
-pub(crate) use triangles::triangles_of_face;
+pub(crate) use triangles::{area_at_rest, triangles_of_face};
 
 use std::ops::Range;
 

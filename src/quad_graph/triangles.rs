@@ -47,6 +47,11 @@ pub(super) fn rest_triangles(disc: &OrientedMesh, planes: Option<&TangentPlanes>
     triangles
 }
 
+/// Returns the area of a surface, the sum over its triangles, opened as far as they can be.
+pub(crate) fn area_at_rest(disc: &OrientedMesh, planes: Option<&TangentPlanes>) -> f64 {
+    (0..disc.faces.len()).flat_map(|f| triangles_of_face(disc, planes, true, f)).map(|t| t.area).sum()
+}
+
 /// Returns the triangles of face `f`: the face itself, or the four corners of a quad; `opened` as
 /// for [`rest_triangles`].
 pub(crate) fn triangles_of_face<'a>(

@@ -12,4 +12,5 @@ mod figure;
 mod figure_pictures;
 mod figure_view;
 mod page;
+mod rooms;
 mod studies;

@@ -119,7 +119,7 @@ fn levenberg_marquardt_keeps_the_same_lengths() {
         let count = boundary(&map(&input, &free(None))).len();
         let wavy: Vec<f64> = (0..count).map(|k| 1.0 + 0.2 * (6.0 * k as f64 / count as f64).sin()).collect();
         let [reduced, other] = ["reduced", "levenberg-marquardt"]
-            .map(|solver| map(&input, &MapOptions { solver: solver.to_owned(), ..free(factors(wavy.clone())) }));
+            .map(|solver| map(&input, &MapOptions { solver: solver.into(), ..free(factors(wavy.clone())) }));
         assert!(record(&reduced).error.max < 1e-8 && record(&other).error.max < 1e-4, "{name}");
         let distance = distance_after_similarity(&other.map.z, &reduced.map.z);
         assert!(distance < 1e-3, "{name}: {distance:e}");

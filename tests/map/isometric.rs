@@ -9,7 +9,7 @@ fn mapped(surface: &str, solver: &str) -> Mapped {
     let options = MapOptions {
         energy: Some("SD".parse().unwrap()),
         boundary: Boundary::FREE,
-        solver: solver.to_owned(),
+        solver: solver.into(),
         ..MapOptions::default()
     };
     let input = Input::open(surface).unwrap();

@@ -9,6 +9,8 @@ mod boundary_lengths;
 mod convergence;
 mod crowding;
 mod digital_maps;
+mod examples;
+mod flattener;
 mod flip_free_maps;
 mod isometric;
 mod near_folds;

@@ -16,8 +16,7 @@ fn mapped(name: &str, options: &MapOptions) -> Mapped {
 fn a_map_with_few_folds_is_the_plain_one_away_from_them() {
     // On the first the exact map is known; the second opens corners of the square to half a turn, which folds the quads there.
     for name in ["plane?n=64&mesh=quad&jitter=0.45&seed=1", "graph:cos+cos?n=81&jitter=0.3&seed=1"] {
-        let plain =
-            mapped(name, &MapOptions { valid: Valid::Off, solver: "reduced".to_owned(), ..MapOptions::default() });
+        let plain = mapped(name, &MapOptions { valid: Valid::Off, solver: "reduced".into(), ..MapOptions::default() });
         let found = mapped(name, &MapOptions::default());
         assert!(!plain.validity.is_one_to_one(), "{name}: no fold to take out");
         assert!(

@@ -18,7 +18,7 @@ fn in_order() -> Boundary {
 
 fn options(energy: &str, weight: Weight) -> MapOptions {
     let energy = (!energy.is_empty()).then(|| energy.parse().unwrap());
-    let boundary = if energy.as_ref().is_none_or(|e: &riemap::energy::Expression| e.has("C")) {
+    let boundary = if energy.as_ref().is_none_or(|e: &riemap::energy::Expression| e.is_on_circle()) {
         Boundary::CIRCLE
     } else {
         Boundary::FREE
@@ -125,7 +125,7 @@ fn levenberg_marquardt_finds_the_lower_of_two_minima() {
 #[test]
 fn first_order_backends_find_the_lower_of_two_minima() {
     for backend in &MINIMISERS[1..] {
-        let solver = backend.name().to_owned();
+        let solver = backend.name().into();
         let options = MapOptions { solver, tolerance: 1e-6, ..options("H + A + L", Weight::Integral) };
         let mapped = map("graph:cos+cos?n=17", &options);
         show("integral H + A + L 17", &mapped);
@@ -139,7 +139,7 @@ fn first_order_backends_reach_the_same_energies() {
     for (energy, tolerance) in [("H + C", 1e-9), ("H + L", 1e-6), ("H + A + L", 1e-6)] {
         let reference = map("graph:cos+cos?n=17", &options(energy, Weight::Unit));
         for backend in &MINIMISERS[1..] {
-            let options = MapOptions { solver: backend.name().to_owned(), tolerance, ..options(energy, Weight::Unit) };
+            let options = MapOptions { solver: backend.name().into(), tolerance, ..options(energy, Weight::Unit) };
             let mapped = map("graph:cos+cos?n=17", &options);
             show(energy, &mapped);
             let apart = (total(&mapped) - total(&reference)).abs();
@@ -172,7 +172,7 @@ fn triangle_meshes_keep_their_boundary_lengths_and_circles_too() {
 fn two_fixed_points_are_seen_in_the_singular_value() {
     let name = "graph:cos+cos?n=9";
     for weight in [Weight::Unit, Weight::Integral] {
-        let solver = "levenberg-marquardt".to_owned();
+        let solver = riemap::map::SolverChoice::from("levenberg-marquardt");
         let of = |pinned| {
             let boundary = Boundary::Circle { pinned, ordered: false };
             map(name, &MapOptions { boundary, solver: solver.clone(), ..options("", weight) })
@@ -294,8 +294,7 @@ fn keep_order_changes_little_where_the_order_is_kept_anyway() {
 fn what_does_not_converge_is_an_error_unless_the_end_was_set() {
     let name = "graph:cos+cos?n=33";
     for solver in ["fletcher-reeves", "auto"] {
-        let options =
-            MapOptions { solver: solver.to_owned(), max_iterations: Some(2), ..options("H + L", Weight::Unit) };
+        let options = MapOptions { solver: solver.into(), max_iterations: Some(2), ..options("H + L", Weight::Unit) };
         let mapped = map(name, &options);
         assert_eq!((mapped.map.ending, mapped.map.iterations), (Ending::Minimised(Status::MaxIterations), 2));
     }
@@ -305,7 +304,7 @@ fn what_does_not_converge_is_an_error_unless_the_end_was_set() {
         assert!(map(name, &options).map.iterations <= max_iterations);
     }
     // Out of reach of doubles and of conjugate gradients' default number of iterations alike.
-    let never = MapOptions { solver: "cg-exact".to_owned(), tolerance: 1e-300, ..options("H + C", Weight::Unit) };
+    let never = MapOptions { solver: "cg-exact".into(), tolerance: 1e-300, ..options("H + C", Weight::Unit) };
     match map_input(&Input::open("graph:cos+cos?n=9").unwrap(), &never, &mut Silent) {
         Ok(mapped) => assert_eq!(mapped.map.ending, Ending::Minimised(Status::Precision)),
         Err(error) => assert!(matches!(error, MapError::NotConverged { .. }), "{error}"),
@@ -334,13 +333,13 @@ fn options_that_make_no_problem_are_refused() {
         assert!(matches!(error, MapError::Tolerance { .. }));
     }
     for backend in LINEAR_SOLVERS {
-        let error = refusal(name, &MapOptions { solver: backend.name().to_owned(), ..options("", Weight::Integral) });
+        let error = refusal(name, &MapOptions { solver: backend.name().into(), ..options("", Weight::Integral) });
         assert!(matches!(error, MapError::NotAMinimiser { ref name, .. } if name == backend.name()), "{error}");
     }
     for backend in MINIMISERS {
         assert!(linear_solver(backend.name()).is_none());
         let fixed = MapOptions { boundary: Boundary::FIXED, ..options("", Weight::Integral) };
-        let error = refusal(name, &MapOptions { solver: backend.name().to_owned(), ..fixed });
+        let error = refusal(name, &MapOptions { solver: backend.name().into(), ..fixed });
         assert!(matches!(error, MapError::Solve(_)), "{}: {error}", backend.name());
     }
 }

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 use riemap::constraint::{Fixed, Freedoms, hold_gauge, on_circle, spread_points};
 use riemap::energy::conformal::{Dirichlet, Weight};
-use riemap::energy::{Circle, Conformal, Curvature, Expression, Rest, energy, jacobian};
+use riemap::energy::{Circle, Conformal, Curvature, Expression, Rest, jacobian};
 use riemap::problem::linear::LinearProblem;
 use riemap::problem::nonlinear::Objective;
 use riemap::quad_graph::metric::RestMetric;
@@ -29,7 +29,7 @@ fn case(surface: &str, terms: &str, weight: Weight, fix: usize) -> Case {
     let graph = graph_of(&disc, "");
     let metric = RestMetric::of_quads(&disc, &graph, None);
     let expression: Expression = terms.parse().unwrap();
-    let circle = expression.has("C");
+    let circle = expression.is_on_circle();
     let points = spread_points(&graph, fix);
     let arc = on_circle(&graph, 1.0, &[(0, 0.0)]).unwrap();
     let anchors: Vec<_> =
@@ -48,7 +48,7 @@ fn case(surface: &str, terms: &str, weight: Weight, fix: usize) -> Case {
     }
     let held: Vec<bool> = (0..graph.vertices as u32).map(|v| fixed.holds(v)).collect();
     let rest = Rest { graph: &graph, metric: &metric, weight, held: &held };
-    let terms = expression.terms.iter().map(|t| (t.coefficient, (energy(t.name).unwrap().make)(rest).unwrap()));
+    let terms = expression.terms().iter().map(|t| (t.coefficient, t.energy.make(rest).unwrap()));
     let objective = Objective {
         terms: terms.collect(),
         freedoms: Freedoms::new(graph.vertices, &fixed),

@@ -13,7 +13,7 @@ use riemap::solver::boundary::{BoundaryError, Reduction};
 
 fn circle(solver: &str) -> MapOptions {
     // The plain maps, folds and all.
-    MapOptions { solver: solver.to_owned(), valid: Valid::Off, ..MapOptions::default() }
+    MapOptions { solver: solver.into(), valid: Valid::Off, ..MapOptions::default() }
 }
 
 fn free(solver: &str) -> MapOptions {
@@ -233,7 +233,7 @@ fn what_does_not_reduce_is_refused_by_name_and_left_to_others_by_auto() {
     ] {
         let error = refusal(name, &options);
         assert!(matches!(error, MapError::Reduced(BoundaryError::Unsuitable { .. })), "{error}");
-        let mapped = map(name, &MapOptions { solver: "auto".to_owned(), ..options });
+        let mapped = map(name, &MapOptions { solver: "auto".into(), ..options });
         assert_eq!((mapped.map.provenance, mapped.map.exactly), (Provenance::of("levenberg-marquardt"), None));
     }
     // Other coefficients are another problem, unless the backend is asked for.

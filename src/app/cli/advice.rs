@@ -73,6 +73,8 @@ fn of_map(error: &MapError) -> Option<String> {
         MapError::NoConvexQuads { .. } => "merge the two, or take the map as it is (--valid off)",
         MapError::NotConverged { .. } => "try another --solver, or --max-iterations to get the unfinished map",
         MapError::Surface(_)
+        | MapError::PlaceCount { .. }
+        | MapError::NotADiscMap
         | MapError::UnknownDual { .. }
         | MapError::NotAMinimiser { .. }
         | MapError::Undetermined { .. }

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use crate::app::bench::{CASES, CONTESTANTS};
 use crate::constraint::Shape;
-use crate::energy::ENERGIES;
+use crate::energy::{ENERGIES, EnergyKind};
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::solver::convex::EDGE_WEIGHTS;
 use crate::solver::{LINEAR_SOLVERS, MINIMISERS, boundary};
@@ -67,7 +67,7 @@ fn sections() -> Vec<Section> {
         section(
             "energies",
             "(--energy \"H + 0.5 L\"; --weight integral|unit)",
-            ENERGIES.iter().map(|e| (e.name.to_owned(), e.about.to_owned())),
+            ENERGIES.iter().map(|e| (e.name().to_owned(), e.about().to_owned())),
         ),
         section(
             "constraints",

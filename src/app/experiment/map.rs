@@ -84,11 +84,11 @@ impl Kind for MapKind {
         let duals: Vec<&str> = DUAL_POINTS.iter().map(|dual| dual.name()).collect();
         config.check_name("map.dual", "dual point", &options.dual, &duals)?;
         if let Some(solver) = config.optional::<SolverSpec>("solver")? {
-            options.solver = solver.name.unwrap_or(options.solver);
+            options.solver = solver.name.map_or(options.solver, Into::into);
             options.tolerance = solver.tolerance.unwrap_or(options.tolerance);
             options.max_iterations = solver.max_iterations.or(options.max_iterations);
         }
-        config.check_name("solver.name", "solver", &options.solver, &solver_names())?;
+        config.check_name("solver.name", "solver", options.solver.name(), &solver_names())?;
         Ok(Box::new(MapTask {
             title: config.optional("title")?.unwrap_or_default(),
             config: config.to_json()?,

@@ -49,7 +49,7 @@ impl Kind for TheoremKind {
     fn task(&self, config: &Document) -> Result<Box<dyn Task>, ConfigError> {
         let options: MapOptions = config.table("map")?;
         let options =
-            MapOptions { boundary: Boundary::CIRCLE, valid: Valid::Off, solver: boundary::NAME.to_owned(), ..options };
+            MapOptions { boundary: Boundary::CIRCLE, valid: Valid::Off, solver: boundary::NAME.into(), ..options };
         Ok(Box::new(TheoremTask { surface: SurfaceSpec::of(config)?, options }))
     }
 }

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use super::{Patience, Repair, Stage};
 use crate::constraint::{Fixed, Freedoms};
 use crate::energy::conformal::Weight;
-use crate::energy::{Clearance, Expression, Metric};
+use crate::energy::{Clearance, Metric};
 use crate::map::gauge::hold_mesh_gauge;
 use crate::map::{Map, MapError, Valid};
 use crate::problem::nonlinear::Objective;
@@ -38,7 +38,7 @@ impl Repair<'_> {
             2f64.powf((0.5 * (self.metric.surface_area() / self.setup.domain.image_area(&disc.z)).log2()).round());
         disc.z.iter_mut().for_each(|z| *z *= scale);
         let mut fixed = Fixed::default();
-        hold_mesh_gauge(&mut fixed, &Expression::of(&["MIPS", "Lb"]), graph, &disc.z);
+        hold_mesh_gauge(&mut fixed, true, graph, &disc.z);
         let mut held = fixed.clone();
         (graph.primal..graph.vertices).for_each(|v| held.hold(v as u32, Complex64::ZERO));
         let mut stage = self.flatten(disc.clone(), &held, Overlaps::Allowed, watch)?;

@@ -17,7 +17,7 @@ use crate::map::provenance::Provenance;
 use crate::map::setup::Setup;
 use crate::map::{Boundary, Domain, Ending, Exactly, Map, MapError, MapOptions, Valid};
 use crate::problem::nonlinear::{Objective, Terms};
-use crate::quad_graph::triangles_of_face;
+use crate::quad_graph::area_at_rest;
 use crate::solver::{Observer, Repair, Status};
 use crate::surface::UnionFind;
 
@@ -84,7 +84,12 @@ pub(super) fn around_flipped(
     if seeds.len() as f64 > LARGEST_SHARE_OF_FOLDS * count {
         return Ok((None, 0));
     }
-    let work = Work { options, area: area_at_rest(domain), perimeter: domain.graph.perimeter(), left };
+    let work = Work {
+        options,
+        area: area_at_rest(&domain.disc, domain.planes.as_ref()),
+        perimeter: domain.graph.perimeter(),
+        left,
+    };
     let incidence = domain.graph.incidence();
     let mut z = plain.z.clone();
     let (mut spent, mut status, mut squares) = (0, Status::Converged, 0.0);
@@ -196,12 +201,6 @@ fn seeds(options: &MapOptions, domain: &Domain, at: &FacesAt, z: &[Complex64], s
     seeds.sort_unstable();
     seeds.dedup();
     seeds
-}
-
-/// The area of the surface.
-fn area_at_rest(domain: &Domain) -> f64 {
-    let faces = 0..domain.disc.faces.len();
-    faces.flat_map(|f| triangles_of_face(&domain.disc, domain.planes.as_ref(), true, f)).map(|t| t.area).sum()
 }
 
 /// What is the same for all patches.

@@ -4,7 +4,7 @@ use super::{Attempt, Unsuitable};
 use crate::energy::conformal;
 use crate::map::provenance::{Provenance, Replaced, Replacement};
 use crate::map::setup::Setup;
-use crate::map::{Clash, Map, MapError, Valid};
+use crate::map::{Clash, Map, MapError, SolverChoice, Valid};
 use crate::solver::Observer;
 use crate::solver::convex::{convex_map, edge_weights};
 
@@ -20,7 +20,7 @@ pub(in crate::map) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<A
     let refused = |clash| Err(MapError::WeightsOfNothing { name: name.to_owned(), clash });
     match () {
         () if options.energy.is_some() => return refused(Clash::Energy),
-        () if options.solver != "auto" => return refused(Clash::Solver),
+        () if options.solver != SolverChoice::Auto => return refused(Clash::Solver),
         () => {}
     }
     let mut fixed = options.fixed(&domain.disc, &domain.graph)?;

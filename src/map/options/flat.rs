@@ -161,7 +161,7 @@ impl FlatOptions {
 
     /// Whether the energy that is given keeps the lengths of a boundary of which nothing is said.
     fn keeps_lengths(&self) -> bool {
-        self.boundary.is_none() && self.energy.as_ref().is_some_and(|energy| energy.has("Lb"))
+        self.boundary.is_none() && self.energy.as_ref().is_some_and(|energy| energy.keeps_boundary_lengths())
     }
 }
 
@@ -184,6 +184,7 @@ impl TryFrom<FlatOptions> for MapOptions {
             boundary,
             energy: flat.energy,
             pins: flat.pins,
+            constraints: defaults.constraints,
             valid: match flat.valid {
                 ValidName::Auto | ValidName::OneToOne => Valid::Auto,
                 ValidName::BestQc => Valid::BestQc,
@@ -196,7 +197,7 @@ impl TryFrom<FlatOptions> for MapOptions {
             rho: flat.rho,
             normals: flat.normals,
             rest: flat.rest,
-            solver: flat.solver.unwrap_or(defaults.solver),
+            solver: flat.solver.map_or(defaults.solver, Into::into),
             tolerance: flat.tolerance.unwrap_or(defaults.tolerance),
             max_iterations: flat.max_iterations,
         })

@@ -2,17 +2,19 @@
 
 mod boundary;
 mod flat;
+mod own;
 
 pub use boundary::{Boundary, BoundaryName, Hold, Interior, Outline, PinnedPoints};
 pub use flat::{FlatOptions, OptionsError, ValidName};
+pub use own::{Own, SolverChoice};
 
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use super::MapError;
-use crate::constraint::{Fixed, Shape, on_shape};
-use crate::energy::Expression;
+use crate::constraint::{Constraint, ConstraintError, Fixed, Shape, on_shape};
 use crate::energy::conformal::Weight;
+use crate::energy::{Expression, Standard};
 use crate::io::BoundaryLengths;
 use crate::quad_graph::dual::{BoundaryDual, DUAL_POINTS, DualPoint, dual_point};
 use crate::quad_graph::{QuadGraph, RestSource};
@@ -92,6 +94,8 @@ pub struct MapOptions {
     /// Vertices pinned beside a fixed boundary, or elsewhere than it says; for circle maps instead of the two or three points; for metric
     /// energies instead of the gauge.
     pub pins: Vec<Pin>,
+    /// Constraints of one's own; they hold vertices as `pins` do.
+    pub constraints: Vec<Own<dyn Constraint>>,
     /// Which map replaces a conformal one that is not injective.
     pub valid: Valid,
     /// The map that a minimisation starts from.
@@ -108,8 +112,8 @@ pub struct MapOptions {
     pub normals: Option<NormalSpec>,
     /// With normals: which lengths and areas are those at rest.
     pub rest: RestSource,
-    /// Name of the solver, or `auto`.
-    pub solver: String,
+    /// The solver.
+    pub solver: SolverChoice,
     /// Nonlinear maps have converged when |∇E| is at most this times its value at the start.
     pub tolerance: f64,
     /// Largest number of iterations; by default the solver's own.
@@ -126,6 +130,7 @@ impl Default for MapOptions {
             boundary: Boundary::default(),
             energy: None,
             pins: Vec::new(),
+            constraints: Vec::new(),
             valid: Valid::default(),
             start: Start::default(),
             weight: Weight::default(),
@@ -134,7 +139,7 @@ impl Default for MapOptions {
             rho: RhoSource::default(),
             normals: None,
             rest: RestSource::default(),
-            solver: "auto".to_owned(),
+            solver: SolverChoice::Auto,
             tolerance: StopRule::default().tolerance,
             max_iterations: None,
         }
@@ -169,9 +174,9 @@ impl MapOptions {
     /// The energy that is minimised.
     pub fn expression(&self) -> Expression {
         self.energy.clone().unwrap_or_else(|| match self.boundary {
-            Boundary::Circle { .. } => Expression::of(&["H", "C"]),
-            Boundary::Free { .. } => Expression::of(&["H", "Lb"]),
-            Boundary::Fixed { .. } | Boundary::Periodic => Expression::of(&["H"]),
+            Boundary::Circle { .. } => Expression::standard(Standard::OnCircle),
+            Boundary::Free { .. } => Expression::standard(Standard::OfLengths),
+            Boundary::Fixed { .. } | Boundary::Periodic => Expression::standard(Standard::Conformal),
         })
     }
 
@@ -186,7 +191,7 @@ impl MapOptions {
     pub fn promises_valid(&self) -> bool {
         self.valid != Valid::Off
             && self.energy.is_none()
-            && self.pins.is_empty()
+            && !self.holds_more()
             && matches!(self.boundary, Boundary::Circle { .. } | Boundary::Free { lengths: None, .. })
     }
 
@@ -224,6 +229,26 @@ impl MapOptions {
         matches!(self.boundary, Boundary::Fixed { on: Outline::Shape(Shape::Circle), .. })
     }
 
+    /// Whether vertices are held by pins or by constraints of one's own.
+    pub fn holds_more(&self) -> bool {
+        !self.pins.is_empty() || !self.constraints.is_empty()
+    }
+
+    /// Holds the vertices of the pins and of the constraints of one's own.
+    ///
+    /// # Errors
+    /// A pinned vertex that no face uses, or that lies on the cut; whatever a constraint says.
+    pub(super) fn hold(&self, fixed: &mut Fixed, disc: &OrientedMesh, graph: &QuadGraph) -> Result<(), MapError> {
+        hold_pins(fixed, disc, &self.pins)?;
+        for constraint in &self.constraints {
+            constraint.hold(disc, graph, fixed)?;
+            if let Some((vertex, _)) = fixed.iter().find(|&(v, _)| v as usize >= graph.vertices) {
+                return Err(ConstraintError::NoSuchVertex { vertex }.into());
+            }
+        }
+        Ok(())
+    }
+
     /// The vertices of `graph` that a fixed boundary and the pins hold, and where. Another boundary is taken for one that is fixed on the
     /// unit circle.
     ///
@@ -248,13 +273,13 @@ impl MapOptions {
         if hold.unwrap_or(default) == Hold::Primal {
             whole.keep_one_dual(graph);
         }
-        hold_pins(&mut whole, disc, &self.pins)?;
+        self.hold(&mut whole, disc, graph)?;
         Ok(whole)
     }
 }
 
 /// Holds vertices of the source at their places.
-pub(super) fn hold_pins(fixed: &mut Fixed, disc: &OrientedMesh, pins: &[Pin]) -> Result<(), MapError> {
+fn hold_pins(fixed: &mut Fixed, disc: &OrientedMesh, pins: &[Pin]) -> Result<(), MapError> {
     for pin in pins {
         let copies = disc.copies(pin.vertex);
         let vertex = match copies.len() {

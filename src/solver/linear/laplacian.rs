@@ -1,8 +1,11 @@
+use std::sync::Arc;
+
 use num_complex::Complex64;
 
 use super::{LinearSolver, SolveError, Unsuitable};
 use crate::laplacian::{Colouring, ConformalLaplacian, LaplacianError};
 use crate::problem::linear::LinearProblem;
+use crate::quad_graph::QuadGraph;
 use crate::solver::{Observer, Phase};
 use crate::sparse::Breakdown;
 
@@ -54,11 +57,45 @@ pub(super) fn solve(
         LaplacianError::NotTwoColoured { .. } | LaplacianError::NotAlternating { .. } => unsuitable,
     })?;
     watch.phase(Phase::Solve);
+    Ok(extension(&laplacian, graph, z0, white))
+}
+
+/// The map with the black boundary values, and the value of one white vertex, that `z0` has.
+fn extension(laplacian: &ConformalLaplacian, graph: &QuadGraph, z0: &[Complex64], white: u32) -> Vec<Complex64> {
     let b: Vec<Complex64> = laplacian.black_boundary().iter().map(|&v| z0[v as usize]).collect();
     let mut z = laplacian.extend_black(graph, &b, &mut laplacian.work());
     z[white as usize] = z0[white as usize];
     laplacian.add_up(graph, white, &mut z);
-    Ok(z)
+    z
+}
+
+/// As [`Laplacian`], by a factor that is there already.
+pub(crate) struct Factored(pub Arc<ConformalLaplacian>);
+
+impl LinearSolver for Factored {
+    fn name(&self) -> &'static str {
+        Laplacian.name()
+    }
+
+    fn description(&self) -> &'static str {
+        Laplacian.description()
+    }
+
+    fn suits(&self, problem: &LinearProblem) -> Result<(), Unsuitable> {
+        Laplacian.suits(problem)?;
+        match held(problem) {
+            Some((colouring, _)) if colouring == *self.0.colouring() => Ok(()),
+            _ => Err(Unsuitable::NotPrimal),
+        }
+    }
+
+    fn solve(&self, problem: &LinearProblem, watch: &mut dyn Observer) -> Result<Vec<Complex64>, SolveError> {
+        let Some((_, white)) = held(problem) else {
+            return Err(SolveError::Unsuitable { backend: self.name(), reason: Unsuitable::NotPrimal });
+        };
+        watch.phase(Phase::Solve);
+        Ok(extension(&self.0, problem.graph, &problem.elimination.z0, white))
+    }
 }
 
 /// Returns colours for which all black boundary vertices are pinned, and the only pinned white

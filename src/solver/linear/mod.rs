@@ -8,6 +8,8 @@ pub(super) mod normal;
 pub mod periodic;
 mod qr;
 
+pub(crate) use laplacian::Factored;
+
 use num_complex::Complex64;
 
 use super::Observer;
@@ -16,7 +18,7 @@ use crate::problem::linear::LinearProblem;
 use crate::sparse::Breakdown;
 
 /// A direct solver of [`LinearProblem`]s.
-pub trait LinearSolver: Sync {
+pub trait LinearSolver: Send + Sync {
     /// The name, as used in options and in the report.
     fn name(&self) -> &'static str;
 

@@ -18,7 +18,7 @@ use crate::problem::nonlinear::Objective;
 use crate::sparse::Breakdown;
 
 /// A solver of nonlinear problems.
-pub trait Minimiser: Sync {
+pub trait Minimiser: Send + Sync {
     /// The name, as used in options and in the report.
     fn name(&self) -> &'static str;
 

@@ -19,7 +19,7 @@ use std::process::Stdio;
 
 use riemap::app::bench::{CASES, CONTESTANTS};
 use riemap::constraint::Shape;
-use riemap::energy::ENERGIES;
+use riemap::energy::{ENERGIES, EnergyKind};
 use riemap::quad_graph::dual::DUAL_POINTS;
 use riemap::solver::convex::EDGE_WEIGHTS;
 use riemap::solver::{LINEAR_SOLVERS, MINIMISERS};
@@ -90,7 +90,7 @@ fn list_names_every_row_of_every_table() {
     let list = Shell::new().done(&["list"]);
     let names = LINEAR_SOLVERS.iter().map(|b| b.name()).chain(MINIMISERS.iter().map(|b| b.name()));
     let names = names.chain(EDGE_WEIGHTS.iter().map(|w| w.name));
-    let names = names.chain(ENERGIES.iter().map(|row| row.name));
+    let names = names.chain(ENERGIES.iter().map(|row| row.name()));
     let names = names.chain(DUAL_POINTS.iter().map(|d| d.name())).chain(Shape::ALL.iter().map(|s| s.0));
     let names = names.chain(CASES.iter().map(|c| c.name)).chain(CONTESTANTS.iter().map(|c| c.name));
     for name in names {

@@ -79,8 +79,11 @@ fn energies_have_any_coefficients() {
     for energy in ["H + L", "H + 0.5 L + A", "2H+1e-3L", "H + 0.5*L + .1 A + 1e1 Lb", "1.5e+0 H + L"] {
         let report = report(&shell, &["m.obj", "--boundary", "free", "--energy", energy]);
         let parsed: riemap::energy::Expression = energy.parse().unwrap();
-        let sum: f64 =
-            parsed.terms.iter().map(|t| t.coefficient * number(&report, &format!("/energy/{}", t.name))).sum();
+        let sum: f64 = parsed
+            .terms()
+            .iter()
+            .map(|t| t.coefficient * number(&report, &format!("/energy/{}", t.energy.name())))
+            .sum();
         assert!((sum / number(&report, "/energy/total") - 1.0).abs() < 1e-12, "{energy}");
     }
 }

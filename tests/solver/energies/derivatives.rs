@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use riemap::constraint::{Fixed, Freedoms};
 use riemap::energy::conformal::{self, Dirichlet, Weight};
 use riemap::energy::energy;
-use riemap::energy::{Conformal, Curvature, Energy, SquareSum, jacobian};
+use riemap::energy::{Conformal, Curvature, Energy, EnergyKind, SquareSum, jacobian};
 use riemap::problem::nonlinear::{HessianAssembly, Objective};
 
 #[test]
@@ -53,7 +53,7 @@ fn gauss_newton_hessians_are_those_of_the_residuals_jacobian() {
                 assert_near(&differences(&real(&z), STEP, residuals), &j, DIFFERENCE, &what);
                 // The same numbers, added up in another order.
                 let row = energy(SquareSum::name(sum.as_ref())).unwrap();
-                let made = (row.make)(case.rest(weight, &held)).unwrap();
+                let made = row.make(case.rest(weight, &held)).unwrap();
                 let gauss = hessian(made.as_ref(), &z, Curvature::GaussNewton);
                 assert_near(&(2.0 * j.transpose() * &j), &gauss, 1e-13, &what);
                 let r = residuals(&real(&z));

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 use riemap::distortion::{Image, face_maps};
 use riemap::energy::conformal::Weight;
-use riemap::energy::{Curvature, Energy, EnergyError, SymmetricDirichlet};
+use riemap::energy::{Curvature, Energy, EnergyError, EnergyKind, SymmetricDirichlet};
 use riemap::quad_graph::metric::RestMetric;
 
 /// Quads, triangles, irregular triangles: dual points do not matter.
@@ -23,7 +23,7 @@ fn gradients_and_exact_hessians_are_the_derivatives_of_values() {
         for weight in WEIGHTS {
             for (row, energy) in case.flip_free(weight) {
                 let x = real(&case.state_without_folds(&mut random));
-                let what = format!("{} {weight:?} {}", row.name, case.name);
+                let what = format!("{} {weight:?} {}", row.name(), case.name);
                 let value = |x: &DVector<f64>| DVector::from_element(1, energy.value(&complex(x)));
                 let g = DMatrix::from_columns(&[gradient(energy.as_ref(), &complex(&x))]);
                 // Third derivatives grow as 1/J³ where triangles are small: a shorter step, and more rounding.
@@ -44,7 +44,7 @@ fn projected_hessians_are_the_positive_parts_of_the_exact_ones_in_a_and_b() {
     for case in cases("torus-patch?n=4") {
         for (row, energy) in case.flip_free(Weight::Integral) {
             // Where a map stretches all, SD is convex.
-            let stretch = if row.metric { 1.0 + 4.0 * random.real().abs() } else { 1.0 };
+            let stretch = if row.properties().fixes_scale { 1.0 + 4.0 * random.real().abs() } else { 1.0 };
             let z: Vec<_> = case.state_without_folds(&mut random).into_iter().map(|z| stretch * z).collect();
             let blocks = |curvature| {
                 let mut blocks = Vec::new();
@@ -55,14 +55,14 @@ fn projected_hessians_are_the_positive_parts_of_the_exact_ones_in_a_and_b() {
             };
             for (exact, projected) in blocks(Curvature::Exact).into_iter().zip(blocks(Curvature::GaussNewton)) {
                 let size = exact.amax();
-                assert!((&projected - projected.transpose()).amax() <= 1e-14 * size, "{}", row.name);
+                assert!((&projected - projected.transpose()).amax() <= 1e-14 * size, "{}", row.name());
                 // Eigenvalues of sums of four squares, to rounding; and never below the exact ones.
-                assert!(projected.clone().symmetric_eigenvalues().min() >= -1e-12 * size, "{}", row.name);
-                assert!((&projected - &exact).symmetric_eigenvalues().min() >= -1e-12 * size, "{}", row.name);
+                assert!(projected.clone().symmetric_eigenvalues().min() >= -1e-12 * size, "{}", row.name());
+                assert!((&projected - &exact).symmetric_eigenvalues().min() >= -1e-12 * size, "{}", row.name());
                 // A block without negative eigenvalues but those of rounding is left as it is.
                 let is_definite = exact.symmetric_eigenvalues().min() >= -1e-13 * size;
                 let same = (&projected - &exact).amax() <= 1e-12 * size;
-                assert!(same || !is_definite, "{}", row.name);
+                assert!(same || !is_definite, "{}", row.name());
                 kept += usize::from(is_definite);
                 changed += usize::from(!same);
             }
@@ -84,14 +84,14 @@ fn values_are_those_of_the_singular_values_of_the_faces() {
                     .map(|map| {
                         let w = if weight == Weight::Unit { 1.0 } else { map.area };
                         let [s, t] = [map.sigma1, map.sigma2];
-                        w * match row.name {
+                        w * match row.name() {
                             "MIPS" => 0.5 * (s / t + t / s) - 1.0,
                             _ => s * s + t * t + 1.0 / (s * s) + 1.0 / (t * t) - 4.0,
                         }
                     })
                     .sum();
                 // The difference with 1, or 4, loses a few bits where the map is nearly perfect.
-                assert!((energy.value(&z) - sum).abs() <= 1e-11 * sum, "{} {weight:?}", row.name);
+                assert!((energy.value(&z) - sum).abs() <= 1e-11 * sum, "{} {weight:?}", row.name());
             }
         }
     }
@@ -109,8 +109,8 @@ fn mips_sees_no_similarity_and_sd_no_rigid_motion() {
                 let (here, there) = (energy.value(&z), energy.value(&moved(scale)));
                 (here - there).abs() <= 1e-11 * here
             };
-            assert!(same(1.0), "{}", row.name);
-            assert_eq!(same(3.0), row.name == "MIPS", "{}", row.name);
+            assert!(same(1.0), "{}", row.name());
+            assert_eq!(same(3.0), row.name() == "MIPS", "{}", row.name());
             // A mirror turns every triangle over.
             let mirrored: Vec<_> = z.iter().map(|z| z.conj()).collect();
             assert_eq!(energy.value(&mirrored), f64::INFINITY);
@@ -125,7 +125,7 @@ fn flat_meshes_have_no_energy_where_they_lie() {
         z.resize(case.graph.vertices, Complex64::ZERO);
         for (row, energy) in case.flip_free(Weight::Integral) {
             // Squares of roundings.
-            assert!(energy.value(&z) < 1e-27, "{} {}: {:e}", row.name, case.name, energy.value(&z));
+            assert!(energy.value(&z) < 1e-27, "{} {}: {:e}", row.name(), case.name, energy.value(&z));
         }
     }
 }
@@ -142,9 +142,9 @@ fn energies_are_finite_up_to_the_largest_step_and_infinite_past_it() {
                 let t = energy.largest_step(&z, &d);
                 assert!(t > 0.0 && t.is_finite());
                 for inside in [0.0, 0.1, 0.5, 0.9, 1.0 - 1e-9] {
-                    assert!(energy.value(&at(inside * t)).is_finite(), "{} {inside}", row.name);
+                    assert!(energy.value(&at(inside * t)).is_finite(), "{} {inside}", row.name());
                 }
-                assert_eq!(energy.value(&at((1.0 + 1e-9) * t)), f64::INFINITY, "{}", row.name);
+                assert_eq!(energy.value(&at((1.0 + 1e-9) * t)), f64::INFINITY, "{}", row.name());
                 // Growing for ever is admitted.
                 assert_eq!(energy.largest_step(&z, &z), f64::INFINITY);
                 let gradient = gradient(energy.as_ref(), &at(1.5 * t));
@@ -181,9 +181,9 @@ fn a_face_without_area_is_refused_by_name() {
     let graph = graph_of(&disc, "");
     let case = Case { name: "straight".to_owned(), metric: RestMetric::of_quads(&disc, &graph, None), disc, graph };
     let held = vec![false; case.graph.vertices];
-    for row in riemap::energy::ENERGIES.iter().filter(|row| row.flip_free) {
-        let error = (row.make)(case.rest(Weight::Unit, &held)).err().unwrap();
-        assert_eq!(error, EnergyError::NoArea { energy: row.name, face: 0, count: 1 });
+    for row in riemap::energy::ENERGIES.iter().filter(|row| row.properties().flip_free) {
+        let error = row.make(case.rest(Weight::Unit, &held)).err().unwrap();
+        assert_eq!(error, EnergyError::NoArea { energy: row.name(), face: 0, count: 1 });
         assert!(error.to_string().contains("face 0"));
     }
 }

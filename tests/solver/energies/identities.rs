@@ -3,15 +3,15 @@ use crate::common::*;
 use num_complex::Complex64;
 use riemap::energy::conformal::Weight;
 use riemap::energy::{Circle, Energy, Order};
-use riemap::energy::{ENERGIES, EnergyRow};
+use riemap::energy::{ENERGIES, EnergyKind, EnergyRow};
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS};
 use riemap::quad_graph::metric::RestMetric;
 
 /// Of energies that are finite everywhere.
 fn values(case: &Case, weight: Weight, z: &[Complex64]) -> Vec<(&'static EnergyRow, f64)> {
     let held = vec![false; case.graph.vertices];
-    let folds = ENERGIES.iter().filter(|row| !row.flip_free);
-    let made = folds.filter_map(|row| Some((row, (row.make)(case.rest(weight, &held)).ok()?)));
+    let folds = ENERGIES.iter().filter(|row| !row.properties().flip_free);
+    let made = folds.filter_map(|row| Some((row, row.make(case.rest(weight, &held)).ok()?)));
     made.map(|(row, energy)| (row, energy.value(z))).collect()
 }
 
@@ -34,16 +34,16 @@ fn flat_meshes_have_no_energy_where_they_lie_and_none_of_h_under_similarities() 
                     // circumcentres are on their own sides.
                     let inside = (0..case.graph.quads.len())
                         .all(|q| (case.metric.folded_area[q] - case.graph.area(q)).abs() < 1e-14);
-                    if row.name == "C" || (row.name == "A" && !inside) {
-                        assert!(row.name == "C" || case.name.contains("circumcentre"), "{}", case.name);
+                    if row.name() == "C" || (row.name() == "A" && !inside) {
+                        assert!(row.name() == "C" || case.name.contains("circumcentre"), "{}", case.name);
                         continue;
                     }
                     // Sums of a few hundred squares of roundings, relative to weights of at most 1/l⁴ ≈ 1e6.
-                    assert!(value < 1e-22, "{} {weight:?} {}: {value:e}", row.name, case.name);
+                    assert!(value < 1e-22, "{} {weight:?} {}: {value:e}", row.name(), case.name);
                 }
                 let turned: Vec<_> =
                     z.iter().map(|z| z * Complex64::new(-3.0, 7.0) + Complex64::new(40.0, -9.0)).collect();
-                let h = values(&case, weight, &turned).into_iter().find(|(row, _)| row.name == "H");
+                let h = values(&case, weight, &turned).into_iter().find(|(row, _)| row.name() == "H");
                 if let Some((_, h)) = h {
                     assert!(h < 1e-22, "{weight:?} {}: {h:e}", case.name);
                 }
@@ -66,7 +66,7 @@ fn energies_see_no_rigid_motion_and_circles_no_rotation() {
             {
                 // Rounding of places of size 1 to 2, through fourth powers and weights.
                 let same = (here - there).abs() <= 1e-12 * here;
-                assert_eq!(same, row.name != "C", "{} {weight:?} {}: {here} {there}", row.name, case.name);
+                assert_eq!(same, row.name() != "C", "{} {weight:?} {}: {here} {there}", row.name(), case.name);
             }
             let (_, c) = values(&case, weight, &moved(Complex64::ZERO))[1];
             assert!((c - values(&case, weight, &z)[1].1).abs() <= 1e-12 * c);
@@ -97,9 +97,9 @@ fn h_and_a_do_not_see_black_and_white_vertices_sheared_against_each_other() {
                 a * z + b * z.conj()
             });
             for (row, value) in values(&case, weight, &sheared.collect::<Vec<_>>()) {
-                match row.name {
+                match row.name() {
                     // Roundings of places of size 20, squared.
-                    "H" | "A" => assert!(value < 1e-24, "{} {weight:?} {t}: {value:e}", row.name),
+                    "H" | "A" => assert!(value < 1e-24, "{} {weight:?} {t}: {value:e}", row.name()),
                     "L" => assert!(value > 1e-2, "{weight:?} {t}: {value:e}"),
                     _ => {}
                 }
@@ -150,6 +150,6 @@ fn names_of_energies_are_those_of_their_rows() {
     let case = Case::quads("plane?n=4&mesh=quad");
     let held = vec![false; case.graph.vertices];
     for row in ENERGIES {
-        assert_eq!((row.make)(case.rest(Weight::Unit, &held)).unwrap().name(), row.name);
+        assert_eq!(row.make(case.rest(Weight::Unit, &held)).unwrap().name(), row.name());
     }
 }

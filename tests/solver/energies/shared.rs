@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use riemap::constraint::on_circle;
 use riemap::energy::conformal::Weight;
 use riemap::energy::{Authalic, Circle, Conformal, Curvature, Energy, Gaps, Metric, Order, Rest, SquareSum};
-use riemap::energy::{ENERGIES, EnergyRow};
+use riemap::energy::{ENERGIES, EnergyKind, EnergyRow};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, DUAL_POINTS, dual_point};
 use riemap::quad_graph::metric::RestMetric;
@@ -70,8 +70,8 @@ impl Case {
     /// All energies that are finite on maps that fold, where they are defined; the barriers too.
     pub fn energies(&self, weight: Weight, held: &[bool]) -> Vec<Box<dyn Energy>> {
         let rest = self.rest(weight, held);
-        let rows = || ENERGIES.iter().filter(|row| !row.flip_free);
-        let mut energies: Vec<Box<dyn Energy>> = rows().filter_map(|row| (row.make)(rest).ok()).collect();
+        let rows = || ENERGIES.iter().filter(|row| !row.properties().flip_free);
+        let mut energies: Vec<Box<dyn Energy>> = rows().filter_map(|row| row.make(rest).ok()).collect();
         let defined = weight == Weight::Unit || self.graph.min_re_rho() > 0.0;
         assert_eq!(energies.len(), if defined { rows().count() } else { 2 }, "{}", self.name);
         energies.push(Box::new(Order::new(&self.graph)));
@@ -82,8 +82,8 @@ impl Case {
     /// Those that are infinite there.
     pub fn flip_free(&self, weight: Weight) -> Vec<(&'static EnergyRow, Box<dyn Energy>)> {
         let held = vec![false; self.graph.vertices];
-        let rows = ENERGIES.iter().filter(|row| row.flip_free);
-        rows.map(|row| (row, (row.make)(self.rest(weight, &held)).unwrap())).collect()
+        let rows = ENERGIES.iter().filter(|row| row.properties().flip_free);
+        rows.map(|row| (row, row.make(self.rest(weight, &held)).unwrap())).collect()
     }
 
     /// A map without folds, of an area like the surface's: means of neighbours, the boundary on a circle, all moved a little.

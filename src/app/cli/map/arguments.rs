@@ -8,8 +8,8 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 
 use crate::constraint::Shape;
-use crate::energy::Expression;
 use crate::energy::conformal::Weight;
+use crate::energy::{Expression, Standard};
 use crate::io::{read_boundary_lengths, read_positions};
 use crate::map::periodic::Tiling;
 use crate::map::{Boundary, BoundaryName, FlatOptions, Hold, MapError, MapOptions, Pin, RhoSource, Start, ValidName};
@@ -250,7 +250,7 @@ impl Arguments {
 /// Whether the map is the solution of one linear system.
 pub(super) fn is_linear(options: &MapOptions) -> bool {
     options.boundary == Boundary::Periodic
-        || options.boundary.is_fixed() && options.expression().terms.iter().all(|term| term.name == "H")
+        || options.boundary.is_fixed() && options.expression().as_standard() == Some(Standard::Conformal)
 }
 
 /// Parses the height of a surrogate.

@@ -2,7 +2,7 @@
 
 use crate::io::is_glb;
 use crate::map::periodic::Tiling;
-use crate::map::{Boundary, BoundaryName, MapOptions, Mapped, ValidName};
+use crate::map::{Boundary, BoundaryName, MapOptions, Mapped, SolverChoice, ValidName};
 use crate::quad_graph::RestSource;
 use crate::quad_graph::dual::BoundaryDual;
 
@@ -11,7 +11,7 @@ use super::arguments::{Arguments, is_linear};
 /// Returns the reason why it has no effect for each option that was given and has none.
 pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped: &Mapped) -> Vec<&'static str> {
     let (triangles, opening) = (mapped.domain.is_of_triangles(), &mapped.cut);
-    let circle = options.expression().has("C") && !options.boundary.is_fixed();
+    let circle = options.expression().is_on_circle() && !options.boundary.is_fixed();
     let linear = is_linear(options);
     let idle = [
         (arguments.boundary == Some(BoundaryName::Free) && circle, "--boundary free has no effect: the energy has C"),
@@ -89,7 +89,7 @@ fn valid_without_effect(arguments: &Arguments, options: &MapOptions, repaired: b
             "--keep-order has no effect: the map was replaced by one whose boundary is in order",
         ),
         (
-            repaired && options.solver != "auto",
+            repaired && options.solver != SolverChoice::Auto,
             "--solver has no effect: the map was replaced by one that Newton's method finds",
         ),
     ]

@@ -41,6 +41,8 @@ fn as_keys(options: &MapOptions) -> Value {
         boundary,
         energy,
         pins,
+        // The command line has none.
+        constraints: _,
         valid,
         start,
         weight,
@@ -62,7 +64,7 @@ fn as_keys(options: &MapOptions) -> Value {
             Valid::Off => "off",
         },
         "start": start, "weight": weight, "dual": dual, "boundary-dual": boundary_dual, "rho": rho,
-        "normals": normals, "rest": rest, "solver": solver, "tolerance": tolerance, "max-iterations": max_iterations,
+        "normals": normals, "rest": rest, "solver": solver.name(), "tolerance": tolerance, "max-iterations": max_iterations,
     });
     match boundary {
         Boundary::Circle { pinned, ordered } => {

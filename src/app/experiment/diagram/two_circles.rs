@@ -16,7 +16,7 @@ use crate::surface::edges::Edges;
 const APART: f64 = 0.12;
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawn, RunError> {
-    let options = MapOptions { solver: NAME.to_owned(), valid: Valid::Off, ..subject.options.clone() };
+    let options = MapOptions { solver: NAME.into(), valid: Valid::Off, ..subject.options.clone() };
     let mapped = map::map_input(subject.input, &options, &mut Silent)?;
     let (disc, graph, map) = (&mapped.domain.disc, &mapped.domain.graph, &mapped.map);
     let laplacian =

@@ -8,7 +8,6 @@ use crate::energy::conformal::{self, Weight};
 use crate::laplacian::ConformalLaplacian;
 use crate::map::boundary_energy::circle_energy;
 use crate::map::method::{Attempt, Unsuitable};
-use crate::map::options::hold_pins;
 use crate::map::setup::Setup;
 use crate::map::{Domain, Ending, Exactly, Map, MapError};
 use crate::quad_graph::QuadGraph;
@@ -25,7 +24,7 @@ const MOST_FOR_SINGULAR_VALUES: usize = 100;
 /// # Errors
 /// Pins that are not in use.
 pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, MapError> {
-    let Setup { options, domain, expression, normalisation } = setup;
+    let Setup { options, domain, expression, normalisation, .. } = setup;
     let graph = &domain.graph;
     let Some(pins) = pins(setup)? else {
         return Ok(Attempt::Unsuitable(Unsuitable::Request("a vertex inside is held")));
@@ -36,8 +35,7 @@ pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, 
     if is_asked(options) && options.is_ordered() {
         return Ok(Attempt::Unsuitable(Unsuitable::Request("it does not keep the boundary in order")));
     }
-    watch.phase(Phase::Assemble);
-    let laplacian = match ConformalLaplacian::new(graph, || watch.phase(Phase::Factor)) {
+    let laplacian = match setup.laplacian(watch) {
         Ok(laplacian) => laplacian,
         Err(error) => return Ok(Attempt::Unsuitable(Unsuitable::Matrix(error.into()))),
     };
@@ -48,7 +46,7 @@ pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, 
     // Points at the angles of arc length may crowd long parts of the surface into short arcs. Where nobody asked for these points,
     // others spread the map as evenly as it can be.
     if let Err(TwoCirclesError::Stalled { .. }) = found
-        && options.pins.is_empty()
+        && !options.holds_more()
         && let Some(centred) = centred_pins(&laplacian, graph)
     {
         found = two_circle_map(&laplacian, graph, &centred, rule, watch);
@@ -84,7 +82,7 @@ pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, 
         ..Map::solved(boundary::NAME, z, fixed, None)
     };
     // Pins are met to rounding: on quad meshes the two circles would put them beside their places.
-    Ok(Attempt::solved(if options.pins.is_empty() { map } else { on_circle(setup, map) }))
+    Ok(Attempt::solved(if !options.holds_more() { map } else { on_circle(setup, map) }))
 }
 
 /// On quad meshes, the map with its boundary points, of both colours, moved radially onto the unit circle: (2) is then off by O(ε) at the
@@ -145,11 +143,11 @@ fn pins(setup: &Setup) -> Result<Option<Vec<CirclePin>>, MapError> {
     let Domain { disc, graph, .. } = setup.domain;
     let points = setup.normalisation.points.iter();
     let on_circle: Vec<CirclePin> = points.map(|&(position, angle)| CirclePin { position, angle }).collect();
-    if setup.options.pins.is_empty() {
+    if !setup.options.holds_more() {
         return Ok(Some(on_circle));
     }
     let mut fixed = Fixed::default();
-    hold_pins(&mut fixed, disc, &setup.options.pins)?;
+    setup.options.hold(&mut fixed, disc, graph)?;
     let on_boundary = graph.boundary.iter().filter(|&&v| fixed.holds(v)).count();
     Ok((on_boundary == fixed.len()).then_some(on_circle))
 }

@@ -7,10 +7,10 @@ pub(in crate::map) use circle::on_circle;
 pub(in crate::map) use free::start as free_start;
 
 use super::{Attempt, Unsuitable};
-use crate::energy::Expression;
 use crate::energy::conformal::Weight;
+use crate::energy::{Expression, Standard};
 use crate::map::setup::Setup;
-use crate::map::{MapError, MapOptions};
+use crate::map::{MapError, MapOptions, SolverChoice};
 use crate::solver::boundary::{self, BoundaryError, Reduction};
 use crate::solver::{Observer, Phase};
 
@@ -20,7 +20,7 @@ use crate::solver::{Observer, Phase};
 /// Pins that are not in use.
 pub(in crate::map) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, MapError> {
     let options = setup.options;
-    if !is_asked(options) && options.solver != "auto" {
+    if !is_asked(options) && options.solver != SolverChoice::Auto {
         return Ok(Attempt::Unsuitable(Unsuitable::NotAsked));
     }
     let problem = match BoundaryProblem::of(options, &setup.expression) {
@@ -35,7 +35,7 @@ pub(in crate::map) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<A
 
 /// Whether the user has named this method's solver.
 pub(in crate::map) fn is_asked(options: &MapOptions) -> bool {
-    options.solver == boundary::NAME
+    options.solver.is_named(boundary::NAME)
 }
 
 /// The reduced operator of the problem's quad graph.
@@ -64,16 +64,15 @@ impl BoundaryProblem {
         if options.boundary.is_fixed() {
             return Err("the whole boundary is held");
         }
-        let is =
-            |names: &[&str]| expression.rows().count() == names.len() && names.iter().all(|name| expression.has(name));
         // Other coefficients ask for a compromise between the terms, which this is not.
-        let even = expression.terms.iter().all(|term| term.coefficient == 1.0);
-        match () {
-            () if !even && !is_asked(options) => Err("the coefficients are not 1"),
-            () if is(&["H", "C"]) => Ok(BoundaryProblem::Circle),
-            () if is(&["H", "Lb"]) && options.pins.is_empty() => Ok(BoundaryProblem::Free),
-            () if is(&["H", "Lb"]) => Err("vertices of a free map are held"),
-            () => Err("the energy is neither H + C nor H + Lb"),
+        if !expression.is_even() && !is_asked(options) {
+            return Err("the coefficients are not 1");
+        }
+        match expression.as_standard() {
+            Some(Standard::OnCircle) => Ok(BoundaryProblem::Circle),
+            Some(Standard::OfLengths) if !options.holds_more() => Ok(BoundaryProblem::Free),
+            Some(Standard::OfLengths) => Err("vertices of a free map are held"),
+            _ => Err("the energy is neither H + C nor H + Lb"),
         }
     }
 }
@@ -81,5 +80,5 @@ impl BoundaryProblem {
 /// The energies with their coefficients.
 fn total(expression: &Expression, energies: &[(&'static str, f64)]) -> f64 {
     let value = |name: &str| energies.iter().find(|(n, _)| *n == name).map_or(0.0, |(_, value)| *value);
-    expression.terms.iter().map(|term| term.coefficient * value(term.name)).sum()
+    expression.terms().iter().map(|term| term.coefficient * value(term.energy.name())).sum()
 }

@@ -29,7 +29,7 @@ pub(super) fn start_from(
 /// A map without flipped faces: every inner vertex a mean of its neighbours, the boundary where a fixed one is held, else on a circle by
 /// arc length between the points that are held; of the best size where the energy sees lengths or areas, of radius 1 where it does not.
 pub(super) fn start(setup: &Setup, metric: &RestMetric, watch: &mut dyn Observer) -> Result<Vec<Complex64>, MapError> {
-    let Setup { options, domain, expression, normalisation } = setup;
+    let Setup { options, domain, expression, normalisation, .. } = setup;
     let graph = &domain.graph;
     let fixed = match options.boundary {
         Boundary::Fixed { .. } => options.fixed(&domain.disc, graph)?,
@@ -37,17 +37,17 @@ pub(super) fn start(setup: &Setup, metric: &RestMetric, watch: &mut dyn Observer
     };
     let z = domain.convex_start(&fixed, &|_| true, watch)?;
     let mut z = domain.with_dual_vertices(z, &fixed);
-    if !options.boundary.is_fixed() && !expression.has("C") && expression.rows().any(|row| row.metric) {
+    if !options.boundary.is_fixed() && !expression.is_on_circle() && expression.fixes_scale() {
         let size = size(setup, metric, &z)?;
         z.iter_mut().for_each(|z| *z *= size);
     }
     Ok(z)
 }
 
-/// The factor that gives a map the least SD where that is the only energy of lengths, else the surface's area.
+/// The factor that gives a map the least SD where no polynomial of lengths or areas is minimised, else the surface's area.
 fn size(setup: &Setup, metric: &RestMetric, z: &[Complex64]) -> Result<f64, MapError> {
     let Setup { options, domain, expression, .. } = setup;
-    if expression.rows().filter(|row| row.metric).all(|row| row.name == "SD") {
+    if !expression.has_lengths_or_areas() {
         let rest = Rest { graph: &domain.graph, metric, weight: options.weight, held: &[] };
         let size = SymmetricDirichlet::new(rest)?.best_scale(z);
         if size.is_finite() && size > 0.0 {
@@ -62,7 +62,7 @@ fn size(setup: &Setup, metric: &RestMetric, z: &[Complex64]) -> Result<f64, MapE
 pub(super) fn unit_of_shapes(setup: &Setup, metric: &RestMetric, z: &[Complex64]) -> f64 {
     let Setup { options, domain, expression, .. } = setup;
     let integral = options.weight == Weight::Integral;
-    let free = expression.rows().any(|row| row.metric) && !options.boundary.is_fixed();
+    let free = expression.fixes_scale() && !options.boundary.is_fixed();
     if integral && !free { domain.image_area(z) / metric.surface_area() } else { 1.0 }
 }
 

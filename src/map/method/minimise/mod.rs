@@ -13,7 +13,7 @@ use crate::constraint::{Fixed, float_white_back, hold_gauge, on_circle, turn_bac
 use crate::energy::Expression;
 use crate::map::gauge::held;
 use crate::map::setup::Setup;
-use crate::map::{Ending, Map, MapError, MapOptions};
+use crate::map::{Ending, Map, MapError, MapOptions, SolverChoice};
 use crate::problem::linear::LinearProblem;
 use crate::solver::minimise::Newton;
 use crate::solver::minimise::smallest_singular_value;
@@ -45,7 +45,7 @@ pub(in crate::map) fn solve(
     effort: Effort,
     watch: &mut dyn Observer,
 ) -> Result<Attempt, MapError> {
-    let Setup { options, domain, expression, normalisation } = setup;
+    let Setup { options, domain, expression, normalisation, .. } = setup;
     let graph = &domain.graph;
     let circle = setup.is_circle();
     let solver = choose(&options.solver, expression)?;
@@ -92,13 +92,14 @@ pub(in crate::map) fn solve(
     }
 
     let mut z = objective.freedoms.expand(&minimum.y);
-    let is_metric = ["A", "L", "Lb"].iter().any(|name| expression.has(name));
-    let has_gauge = is_metric && !options.boundary.is_fixed() && options.pins.is_empty() && !expression.has("C");
+    let has_gauge = expression.has_lengths_or_areas()
+        && !options.boundary.is_fixed()
+        && !options.holds_more()
+        && !expression.is_on_circle();
     if has_gauge {
         turn_back(expression, graph, &first, &mut z);
     }
-    let only_diagonals = expression.has("A") && !["L", "Lb", "C"].iter().any(|name| expression.has(name));
-    if only_diagonals && has_gauge {
+    if has_gauge && !expression.joins_diagonal_classes() {
         float_white_back(graph, &metric, &mut z);
     }
     if !unseen.is_empty() {
@@ -125,13 +126,16 @@ pub(in crate::map) fn solve(
     }))
 }
 
-/// The minimiser of that name. `auto` is Newton's method for sums of energies over triangles, whose Hessians have their positive parts in
+/// The minimiser that was chosen. `auto` is Newton's method for sums of energies over triangles, whose Hessians have their positive parts in
 /// closed form, and Levenberg–Marquardt for sums of squares.
-fn choose(name: &str, expression: &Expression) -> Result<&'static dyn Minimiser, MapError> {
-    if name == "auto" {
-        let of_triangles = expression.rows().all(|row| row.flip_free);
-        return Ok(if of_triangles { &Newton::ROW } else { MINIMISERS[0] });
-    }
+fn choose<'a>(solver: &'a SolverChoice, expression: &Expression) -> Result<&'a dyn Minimiser, MapError> {
+    let name = match solver {
+        SolverChoice::Auto if expression.is_of_triangles() => return Ok(&Newton::ROW),
+        SolverChoice::Auto => return Ok(MINIMISERS[0]),
+        SolverChoice::Minimiser(own) => return Ok(&**own),
+        SolverChoice::Linear(own) => own.name(),
+        SolverChoice::Named(name) => name,
+    };
     minimiser(name).ok_or_else(|| MapError::NotAMinimiser {
         name: name.to_owned(),
         known: [crate::solver::boundary::NAME]
@@ -164,12 +168,12 @@ fn not_converged(solver: &dyn Minimiser, minimum: &Minimum, iterations: usize, o
 
 /// The boundary on a circle by arc length, of the perimeter's radius where lengths count, the interior from H.
 fn initial(setup: &Setup) -> Result<Vec<Complex64>, MapError> {
-    let Setup { options, domain, expression, normalisation } = setup;
+    let Setup { options, domain, expression, normalisation, .. } = setup;
     let graph = &domain.graph;
     let fixed = if options.boundary.is_fixed() {
         options.fixed(&domain.disc, graph)?
     } else {
-        let lengths_count = expression.rows().any(|row| row.metric) && !expression.has("C");
+        let lengths_count = expression.fixes_scale() && !expression.is_on_circle();
         let radius = if lengths_count { graph.perimeter() / TAU } else { 1.0 };
         on_circle(graph, radius, normalisation.or_first())?
     };

@@ -2,7 +2,7 @@
 
 use crate::constraint::{Fixed, Freedoms};
 use crate::energy::conformal::{Dirichlet, Weight};
-use crate::energy::{Order, Rest, energy};
+use crate::energy::{Order, Rest};
 use crate::map::MapError;
 use crate::map::setup::Setup;
 use crate::problem::nonlinear::{Objective, Terms};
@@ -34,11 +34,10 @@ impl Stages<'_> {
         let held: Vec<bool> = (0..graph.vertices as u32).map(|v| self.fixed.holds(v)).collect();
         let rest = Rest { graph, metric: self.metric, weight: options.weight, held: &held };
         let mut terms = Terms::new();
-        for term in expression.terms.iter().filter(|term| term.coefficient > 0.0) {
-            if let Some(row) = energy(term.name) {
-                let unit = if row.flip_free && !row.metric { self.unit } else { 1.0 };
-                terms.push((unit * term.coefficient, (row.make)(rest)?));
-            }
+        for term in expression.terms().iter().filter(|term| term.coefficient > 0.0) {
+            let is = term.energy.properties();
+            let unit = if is.flip_free && !is.fixes_scale { self.unit } else { 1.0 };
+            terms.push((unit * term.coefficient, term.energy.make(rest)?));
         }
         Ok(terms)
     }
@@ -53,7 +52,7 @@ impl Stages<'_> {
     /// Whether L' is stiff beside H.
     pub fn is_stiff(&self) -> bool {
         let Setup { options, expression, .. } = self.setup;
-        options.weight == Weight::Integral && expression.has("H") && expression.has("Lb")
+        options.weight == Weight::Integral && expression.is_stiff()
     }
 
     /// Minimises with a weakened L' first.
@@ -66,8 +65,11 @@ impl Stages<'_> {
         watch: &mut dyn Observer,
     ) -> Result<(Minimum, usize), MapError> {
         let mut soft = self.objective()?;
-        for (coefficient, _) in soft.terms.iter_mut().filter(|(_, energy)| energy.name() == "Lb") {
-            *coefficient *= SOFTENED;
+        for ((coefficient, _), kind) in soft.terms.iter_mut().zip(self.setup.expression.energies()) {
+            let is = kind.properties();
+            if is.fixes_scale && is.boundary_only {
+                *coefficient *= SOFTENED;
+            }
         }
         let first = backend.minimise(&soft, start, rule, watch)?;
         if first.status == Status::Interrupted {
