@@ -25,13 +25,17 @@ impl Edges {
     pub fn new(faces: &Faces, vertices: usize) -> Self {
         let corner_vertex = faces.corners();
         let total = corner_vertex.len();
-        let mut larger_end = vec![0u32; total];
         let mut face_of_corner = vec![0u32; total];
+        // The ends of each corner's edge.
+        let ends_in = |range: &std::ops::Range<usize>, c: usize| {
+            let next = if c + 1 == range.end { range.start } else { c + 1 };
+            [corner_vertex[c], corner_vertex[next]]
+        };
         let mut bucket = vec![0u32; vertices + 1];
         for f in 0..faces.len() {
-            for c in faces.corner_range(f) {
-                let (a, b) = (corner_vertex[c], corner_vertex[next_in(faces, f, c)]);
-                larger_end[c] = a.max(b);
+            let range = faces.corner_range(f);
+            for c in range.clone() {
+                let [a, b] = ends_in(&range, c);
                 face_of_corner[c] = f as u32;
                 bucket[a.min(b) as usize + 1] += 1;
             }
@@ -39,12 +43,15 @@ impl Edges {
         for v in 0..vertices {
             bucket[v + 1] += bucket[v];
         }
-        let mut corners = vec![0u32; total];
+        // Larger end and corner in one number, which sorts by both.
+        let mut keys = vec![0u64; total];
         let mut cursor = bucket.clone();
         for f in 0..faces.len() {
-            for c in faces.corner_range(f) {
-                let slot = &mut cursor[corner_vertex[c].min(corner_vertex[next_in(faces, f, c)]) as usize];
-                corners[*slot as usize] = c as u32;
+            let range = faces.corner_range(f);
+            for c in range.clone() {
+                let [a, b] = ends_in(&range, c);
+                let slot = &mut cursor[a.min(b) as usize];
+                keys[*slot as usize] = u64::from(a.max(b)) << 32 | c as u64;
                 *slot += 1;
             }
         }
@@ -52,18 +59,23 @@ impl Edges {
         let mut ends = Vec::with_capacity(total / 2 + 1);
         let mut offsets = Vec::with_capacity(total / 2 + 2);
         let mut of_corner = vec![0u32; total];
+        let mut corners = Vec::with_capacity(total);
         for v in 0..vertices {
-            let (first, last) = (bucket[v] as usize, bucket[v + 1] as usize);
-            // Corners of one edge have equal keys.
-            let key = |c: u32| (larger_end[c as usize], faces.twins().map(|twins| c.min(twins[c as usize])));
-            corners[first..last].sort_unstable_by_key(|&c| (key(c), c));
-            for k in first..last {
-                let w = larger_end[corners[k] as usize];
-                if k == first || key(corners[k]) != key(corners[k - 1]) {
-                    ends.push([v as u32, w]);
-                    offsets.push(k as u32);
+            let bucket = &mut keys[bucket[v] as usize..bucket[v + 1] as usize];
+            // Corners of one edge agree in this.
+            let name = |key: u64| (key >> 32, faces.twins().map(|twins| (key as u32).min(twins[key as u32 as usize])));
+            match faces.twins() {
+                None => bucket.sort_unstable(),
+                Some(_) => bucket.sort_unstable_by_key(|&key| (name(key), key)),
+            }
+            let mut last = None;
+            for &key in &*bucket {
+                if last.replace(name(key)) != Some(name(key)) {
+                    ends.push([v as u32, (key >> 32) as u32]);
+                    offsets.push(corners.len() as u32);
                 }
-                of_corner[corners[k] as usize] = ends.len() as u32 - 1;
+                of_corner[key as u32 as usize] = ends.len() as u32 - 1;
+                corners.push(key as u32);
             }
         }
         offsets.push(total as u32);

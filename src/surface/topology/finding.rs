@@ -2,6 +2,7 @@
 
 use super::diagnosis::Finding;
 use crate::geometry::vector;
+use crate::sparse::Lists;
 use crate::surface::Surface;
 use crate::surface::topology::Topology;
 
@@ -64,21 +65,30 @@ pub(super) fn of_polygons(surface: &Surface) -> Vec<Finding> {
 
 fn duplicate_faces(surface: &Surface) -> Option<Finding> {
     let faces = &surface.faces;
-    // Faces with the same vertex set have the same smallest vertex: only faces in one bucket are
-    // compared.
-    let mut by_smallest: Vec<(u32, u32)> =
-        (0..faces.len()).map(|f| (faces.get(f).iter().copied().min().unwrap_or(0), f as u32)).collect();
-    by_smallest.sort_unstable();
+    // Faces with the same vertex set have the same smallest vertex, and the same number, sum and sum of squares of all
+    // vertices: only such faces are compared.
+    let smallest = |f: u32| faces.get(f as usize).iter().copied().min().unwrap_or(0);
+    let by_smallest = Lists::new(surface.positions.len(), (0..faces.len() as u32).map(|f| (smallest(f), f)));
+    let signature = |f: u32| {
+        let polygon = faces.get(f as usize).iter().map(|&v| u64::from(v));
+        (polygon.len(), polygon.clone().sum::<u64>(), polygon.map(|v| v * v).fold(0, u64::wrapping_add))
+    };
     let sorted = |f: u32| {
         let mut polygon = faces.get(f as usize).to_vec();
         polygon.sort_unstable();
         polygon
     };
     let mut pairs = Vec::new();
-    for bucket in by_smallest.chunk_by(|a, b| a.0 == b.0).filter(|bucket| bucket.len() > 1) {
-        let mut sets: Vec<(Vec<u32>, u32)> = bucket.iter().map(|&(_, f)| (sorted(f), f)).collect();
-        sets.sort_unstable();
-        pairs.extend(sets.chunk_by(|a, b| a.0 == b.0).flat_map(|same| same[1..].iter().map(|s| [same[0].1, s.1])));
+    let mut bucket = Vec::new();
+    for v in 0..by_smallest.len() as u32 {
+        bucket.clear();
+        bucket.extend(by_smallest.of(v).iter().map(|&f| (signature(f), f)));
+        bucket.sort_unstable();
+        for alike in bucket.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
+            let mut sets: Vec<(Vec<u32>, u32)> = alike.iter().map(|&(_, f)| (sorted(f), f)).collect();
+            sets.sort_unstable();
+            pairs.extend(sets.chunk_by(|a, b| a.0 == b.0).flat_map(|same| same[1..].iter().map(|s| [same[0].1, s.1])));
+        }
     }
     pairs.sort_unstable_by_key(|&[_, later]| later);
     Tally::of(pairs.into_iter()).report(|first, count| Finding::DuplicateFaces { first, count })
@@ -195,11 +205,24 @@ pub(super) fn of_vertices(surface: &Surface, topology: &Topology) -> Vec<Finding
     let fans = &topology.fans;
     let unused = (0..fans.len()).filter(|&v| fans[v] == 0);
     let key = |v: u32| surface.positions[v as usize].map(|t| (t + 0.0).to_bits());
-    let mut used: Vec<([u64; 3], u32)> =
-        (0..fans.len() as u32).filter(|&v| fans[v as usize] > 0).map(|v| (key(v), v)).collect();
-    used.sort_unstable();
-    let mut coincident: Vec<[u32; 2]> =
-        used.chunk_by(|a, b| a.0 == b.0).flat_map(|same| same[1..].iter().map(|s| [same[0].1, s.1])).collect();
+    // As many buckets as vertices, by a product of the coordinates' bits.
+    let bits = fans.len().next_power_of_two().trailing_zeros().max(1);
+    let bucket = |v: u32| {
+        let mixed =
+            key(v).iter().fold(0u64, |mixed, &bits| (mixed ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29));
+        (mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - bits)) as u32
+    };
+    let used = (0..fans.len() as u32).filter(|&v| fans[v as usize] > 0);
+    let buckets = Lists::new(1 << bits, used.map(|v| (bucket(v), v)));
+    let mut coincident = Vec::new();
+    let mut alike: Vec<([u64; 3], u32)> = Vec::new();
+    for b in (0..buckets.len() as u32).filter(|&b| buckets.of(b).len() > 1) {
+        alike.clear();
+        alike.extend(buckets.of(b).iter().map(|&v| (key(v), v)));
+        alike.sort_unstable();
+        let same = alike.chunk_by(|a, b| a.0 == b.0);
+        coincident.extend(same.flat_map(|same| same[1..].iter().map(|s| [same[0].1, s.1])));
+    }
     coincident.sort_unstable_by_key(|&[_, later]| later);
     [
         Tally::of(unused).report(|v, count| Finding::Unreferenced { vertex: v as u32, count }),

@@ -93,21 +93,38 @@ impl Topology {
 ///
 /// A fan is a set of corners at one vertex that are connected across edges of exactly two faces.
 fn fan_of_corner(faces: &Faces, edges: &Edges) -> Vec<u32> {
+    const NONE: u32 = u32::MAX;
     let vertex = faces.corners();
-    let mut fan = UnionFind::new(vertex.len());
-    for e in 0..edges.len() {
-        let &[c, d] = edges.corners(e) else { continue };
-        let ahead = |c: u32| next_in(faces, edges.face_of_corner[c as usize] as usize, c as usize) as u32;
-        let (c_next, d_next) = (ahead(c), ahead(d));
-        if vertex[c as usize] == vertex[d as usize] {
-            fan.unite(c, d);
-            fan.unite(c_next, d_next);
-        } else {
-            fan.unite(c, d_next);
-            fan.unite(c_next, d);
+    let mut fan = vec![NONE; vertex.len()];
+    let mut reached = Vec::new();
+    for seed in 0..vertex.len() {
+        if fan[seed] != NONE {
+            continue;
+        }
+        fan[seed] = seed as u32;
+        reached.push(seed);
+        while let Some(c) = reached.pop() {
+            // Across the edge ahead of the corner, and across the one behind it.
+            let f = edges.face_of_corner[c] as usize;
+            let before = before_in(faces, f, c);
+            let next = |d: usize| next_in(faces, edges.face_of_corner[d] as usize, d);
+            let ahead = edges.opposite(c).map(|d| if vertex[d] == vertex[c] { d } else { next(d) });
+            let behind = edges.opposite(before).map(|d| if vertex[d] == vertex[before] { next(d) } else { d });
+            for other in [ahead, behind].into_iter().flatten() {
+                if fan[other] == NONE {
+                    fan[other] = seed as u32;
+                    reached.push(other);
+                }
+            }
         }
     }
-    (0..vertex.len() as u32).map(|c| fan.find(c)).collect()
+    fan
+}
+
+/// The corner before `c` in face `f`.
+fn before_in(faces: &Faces, f: usize, c: usize) -> usize {
+    let range = faces.corner_range(f);
+    if c == range.start { range.end - 1 } else { c - 1 }
 }
 
 fn count_fans(faces: &Faces, fan: &[u32], vertices: usize) -> Vec<u32> {
@@ -136,7 +153,9 @@ fn components(faces: &Faces, edges: &Edges, orientation: &Orientation, fan: &[u3
         .collect();
     let mut last_seen_by = vec![u32::MAX; fans.len()];
     let mut in_component_order: Vec<u32> = (0..faces.len() as u32).collect();
-    in_component_order.sort_by_key(|&f| orientation.component[f as usize]);
+    if components.len() > 1 {
+        in_component_order.sort_by_key(|&f| orientation.component[f as usize]);
+    }
     for &f in &in_component_order {
         let id = orientation.component[f as usize];
         let part = &mut components[id as usize];
