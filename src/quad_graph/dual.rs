@@ -45,6 +45,11 @@ impl DualPoint for Barycentre {
     fn weights(&self, _lengths: [f64; 3]) -> [f64; 3] {
         [1.0; 3]
     }
+
+    // The same, without the lengths.
+    fn place(&self, t: f64, u: f64) -> (f64, f64) {
+        ((1.0 + t) / 3.0, u / 3.0)
+    }
 }
 
 /// The centre of the circumscribed circle.

@@ -33,8 +33,13 @@ impl QuadGraph {
         if vertices >= u32::MAX as usize {
             return Err(QuadGraphError::TooLarge { vertices });
         }
-        let placed = place_dual_points(disc, dual)?;
         let edges = Edges::new(&disc.faces, primal);
+        // The longest that one of an edge's faces has there.
+        let mut diagonal = vec![0.0f64; edges.len()];
+        let placed = place_dual_points(disc, dual, |c, length| {
+            let longest = &mut diagonal[edges.of_corner[c] as usize];
+            *longest = longest.max(length);
+        })?;
         let corner_vertex = disc.faces.corners();
         let face_dual = |f: u32| primal as u32 + f;
 
@@ -47,7 +52,7 @@ impl QuadGraph {
             primal,
             quads: Vec::with_capacity(edges.len()),
             rho: Vec::with_capacity(edges.len()),
-            diagonal: Vec::with_capacity(edges.len()),
+            diagonal,
             tilted: 0,
             boundary: Vec::with_capacity(2 * loop_length),
             loops: one_loop(2 * loop_length),
@@ -62,7 +67,7 @@ impl QuadGraph {
             let c = corners[0] as usize;
             let f = edges.face_of_corner[c];
             let (vi, vj) = (corner_vertex[c], corner_vertex[next_in(&disc.faces, f as usize, c)]);
-            let length = disc.edge_length(corners, &edges.face_of_corner);
+            let length = graph.diagonal[e];
             let (s, h) = placed[c];
             let (right, rho) = match corners {
                 &[_, d] => {
@@ -87,7 +92,6 @@ impl QuadGraph {
             };
             graph.quads.push([vi, right, vj, face_dual(f)]);
             graph.rho.push(rho);
-            graph.diagonal.push(length);
         }
         Ok(graph)
     }
@@ -107,20 +111,27 @@ fn places(disc: &OrientedMesh) -> Vec<[f64; 3]> {
 }
 
 /// Returns for each corner the dual point (s, h) of its face, in coordinates in which the corner's
-/// edge is 0 → 1.
-pub(super) fn place_dual_points(disc: &OrientedMesh, dual: &dyn DualPoint) -> Result<Vec<(f64, f64)>, QuadGraphError> {
+/// edge is 0 → 1. `measured` receives the length of every corner's edge.
+pub(super) fn place_dual_points(
+    disc: &OrientedMesh,
+    dual: &dyn DualPoint,
+    mut measured: impl FnMut(usize, f64),
+) -> Result<Vec<(f64, f64)>, QuadGraphError> {
     let mut placed = Vec::with_capacity(disc.faces.corners().len());
     for (face, polygon) in disc.faces.iter().enumerate() {
         let &[a, b, c] = polygon else { return Err(QuadGraphError::Corners { corners: polygon.len() }) };
+        let edges = [0, 1, 2].map(|k| disc.spoke(face, k, (k + 1) % 3));
+        let twice_area = norm(cross(edges[0], scale(-1.0, edges[2])));
         for k in 0..3 {
-            let [edge, third] = [1, 2].map(|step| disc.spoke(face, k, (k + step) % 3));
+            let (edge, back) = (edges[k], edges[(k + 2) % 3]);
             let length_squared = dot(edge, edge);
-            let (s, h) = dual.place(dot(edge, third) / length_squared, norm(cross(edge, third)) / length_squared);
+            let (s, h) = dual.place(-dot(edge, back) / length_squared, twice_area / length_squared);
             if !(s.is_finite() && h.is_finite() && length_squared > 0.0) {
                 let vertices = [a, b, c].map(|v| disc.source_vertex[v as usize]);
                 let face = disc.source_face[face] as usize;
                 return Err(QuadGraphError::DegenerateTriangle { face, vertices });
             }
+            measured(placed.len(), length_squared.sqrt());
             placed.push((s, h));
         }
     }

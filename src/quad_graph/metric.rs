@@ -84,7 +84,7 @@ impl RestMetric {
     /// # Errors
     /// Errors of [`QuadGraph::from_triangles`].
     pub fn of_triangles(disc: &OrientedMesh, graph: &QuadGraph, dual: &dyn DualPoint) -> Result<Self, QuadGraphError> {
-        let placed = super::from_triangles::place_dual_points(disc, dual)?;
+        let placed = super::from_triangles::place_dual_points(disc, dual, |_, _| ())?;
         let edges = Edges::new(&disc.faces, disc.positions.len());
         let vertex = disc.faces.corners();
         let corners = vertex.len();
