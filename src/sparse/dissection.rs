@@ -1,6 +1,7 @@
 //! Nested dissection by positions: an elimination order that keeps fill low in matrices that couple
 //! nearby vertices of a surface.
 
+use super::piece::Piece;
 use super::separator::Band;
 
 /// Largest number of pieces in a part that is not divided further: its few vertices form one
@@ -29,8 +30,7 @@ const REFINED: usize = 3000;
 pub fn dissect(pieces: &[[u32; 4]], places: &[[f64; 3]], free: impl Fn(u32) -> bool) -> Vec<u32> {
     let free: Vec<bool> = (0..places.len() as u32).map(free).collect();
     let count = free.iter().filter(|free| **free).count();
-    let mut pieces: Vec<Piece> =
-        pieces.iter().map(|&vertices| Piece { at: middle(vertices, places), vertices }).collect();
+    let mut pieces: Vec<Piece> = pieces.iter().map(|&vertices| Piece::new(vertices, places)).collect();
     let mut dissection =
         Dissection { free, mark: vec![0; places.len()], tag: 0, order: vec![u32::MAX; count], left: count };
     let mut parts = Vec::from([(0, pieces.len())]);
@@ -45,27 +45,6 @@ pub fn dissect(pieces: &[[u32; 4]], places: &[[f64; 3]], free: impl Fn(u32) -> b
     }
     dissection.order.drain(..dissection.left);
     dissection.order
-}
-
-/// The sum of the positions of the vertices, equivalent to their mean for comparisons.
-fn middle(vertices: [u32; 4], places: &[[f64; 3]]) -> [f64; 3] {
-    let [a, b, c, d] = vertices.map(|v| places[v as usize]);
-    [0, 1, 2].map(|axis| a[axis] + b[axis] + c[axis] + d[axis])
-}
-
-/// Coupled vertices and their position.
-#[derive(Clone, Copy)]
-pub(super) struct Piece {
-    at: [f64; 3],
-    pub vertices: [u32; 4],
-}
-
-impl Piece {
-    /// A piece whose position is irrelevant.
-    #[cfg(test)]
-    pub fn nowhere(vertices: [u32; 4]) -> Self {
-        Piece { at: [0.0; 3], vertices }
-    }
 }
 
 struct Dissection {

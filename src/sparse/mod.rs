@@ -7,6 +7,7 @@ pub mod interop;
 mod lists;
 mod panel;
 mod pattern;
+mod piece;
 mod pruned;
 mod separator;
 mod supernodes;

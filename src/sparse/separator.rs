@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::Lists;
-use super::dissection::Piece;
+use super::piece::Piece;
 
 const NONE: u32 = u32::MAX;
 /// Stands for a piece where paths begin and end.

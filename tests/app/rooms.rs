@@ -5,8 +5,22 @@ use std::path::{Path, PathBuf};
 
 /// From the ground up.
 const ROOMS: [&str; 16] = [
-    "geometry", "sparse", "surface", "io", "input", "quad_graph", "laplacian", "energy", "constraint", "distortion",
-    "problem", "solver", "map", "report", "figure", "app",
+    "geometry",
+    "sparse",
+    "surface",
+    "io",
+    "input",
+    "quad_graph",
+    "laplacian",
+    "energy",
+    "constraint",
+    "distortion",
+    "problem",
+    "solver",
+    "map",
+    "report",
+    "figure",
+    "app",
 ];
 
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
