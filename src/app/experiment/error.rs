@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use super::DataFile;
 use super::DiagramError;
 use crate::app::compare::libigl::LibiglError;
+use crate::app::compare::moebius_fit::Undetermined;
 use crate::app::compare::peer::{MoebiusError, PeerError};
 use crate::app::compare::verify::VerifyError;
 use crate::figure::FigureError;
@@ -232,6 +233,9 @@ pub enum RunError {
     /// A map that cannot be laid over the exact one.
     #[error(transparent)]
     Moebius(#[from] MoebiusError),
+    /// No Möbius map fits a peer's map to the exact one.
+    #[error(transparent)]
+    Fit(#[from] Undetermined),
     /// No libigl.
     #[error(transparent)]
     Libigl(#[from] LibiglError),

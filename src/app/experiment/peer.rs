@@ -8,6 +8,7 @@ use super::map::untimed;
 use super::surface::SurfaceSpec;
 use super::{ConfigError, Document, Kind, RunError, Task, Yield};
 use crate::app::compare::libigl::{Environment, Settings};
+use crate::app::compare::moebius_fit::fitted;
 use crate::app::compare::peer::{Moebius, PEERS, peer};
 use crate::app::measure::stopwatch::Stopwatch;
 use crate::constraint::spread_points;
@@ -124,7 +125,7 @@ fn errors(exact: &[[f64; 2]], mut mapped: Mapped) -> Result<[ErrorRecord; 2], Ru
         *pair = (z[v], w[disc.source_vertex[v] as usize]);
     }
     let through = Moebius::through(held.map(|(z, _)| z), held.map(|(_, w)| w))?;
-    let fitted = through.fitted(&ours, &theirs)?;
+    let fitted = fitted(through, &ours, &theirs)?;
     let mut record = |moebius: Moebius| {
         mapped.map.z = z.iter().map(|&z| moebius.at(z)).collect();
         ErrorRecord::new(exact, &mapped.domain.disc, &mapped.map)
