@@ -17,11 +17,13 @@ def contents(results: Path) -> dict[str, object]:
         record = json.loads(path.read_text())
         if not {"experiment", "run", "timings", "versions"} <= record.keys():
             continue
-        for name in record["pictures"]:
-            found[f"figures/{name}"] = (results / "figures" / name).read_bytes()
-        del record["timings"], record["versions"]
+        # Runs are told apart by their configs, for the names of runs and pictures may be made otherwise.
+        run = f"{path.parent.name} {json.dumps(record['config'], sort_keys=True)}"
+        for i, name in enumerate(record["pictures"]):
+            found[f"{run}, picture {i}"] = (results / "figures" / name).read_bytes()
+        del record["timings"], record["versions"], record["run"], record["pictures"]
         # As text, for a NaN is no more itself than -0 is 0.
-        found[str(path.relative_to(results))] = json.dumps(record, sort_keys=True)
+        found[run] = json.dumps(record, sort_keys=True)
     for path in results.glob("*/table.md"):
         found[str(path.relative_to(results))] = path.read_bytes()
     return found
@@ -33,7 +35,7 @@ def main() -> None:
     for name in different[:20]:
         missing = [folder for folder, found in zip(sys.argv[1:], (one, two)) if name not in found]
         print(f"{name}: " + (f"not in {missing[0]}" if missing else "differs"))
-    records = sum(name.endswith(".json") for name in one)
+    records = sum(name.endswith("}") for name in one)
     print(f"{records} records, {len(one) - records} tables and pictures, {len(different)} different")
     if different or records == 0:
         sys.exit(1)

@@ -11,6 +11,7 @@ mod experiment;
 mod figure;
 mod figure_pictures;
 mod figure_view;
+mod hostile;
 mod page;
 mod rooms;
 mod studies;

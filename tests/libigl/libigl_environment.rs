@@ -1,6 +1,6 @@
 //! libigl in its own environment: it answers what it should, and what fails says why.
 //!
-//! The first tests need the environment, which is made on the first run (network) and kept under `target/`.
+//! The first tests need the environment, which is made on the first run (network) and kept in the user's cache folder.
 
 use riemap::app::compare::libigl::{Environment, LibiglError, Settings, harmonic};
 use std::path::Path;

@@ -145,8 +145,8 @@ const LIBIGL: Package = Package { name: "libigl", install: "pip install libigl==
 const MESHLAB: Package = Package { name: "pymeshlab", install: "pip install pymeshlab==2025.7.post1" };
 const CHOLMOD: Package = Package {
     name: "scikit-sparse",
-    install: "apt-get install libsuitesparse-dev libopenblas-dev gcc, then pip install Cython setuptools wheel and \
-              pip install --no-build-isolation scikit-sparse==0.4.16",
+    install: "apt-get install libsuitesparse-dev libopenblas-dev gcc, then riemap bench --build-scikit-sparse, or in an \
+              interpreter of your own pip install --no-build-isolation scikit-sparse==0.4.16",
 };
 
 /// Everyone; of a kind ours is the first.

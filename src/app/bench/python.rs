@@ -1,25 +1,42 @@
 //! The interpreter that runs the peers, and what it has.
 
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use tempfile::NamedTempFile;
 
 use super::{BenchError, Contestant, Program};
 use crate::app::compare::libigl::{self, Environment, Settings, program};
 
 const SCRIPT: &str = include_str!("peers.py");
 
-/// What is added to libigl's environment, with the arguments of pip: pinned, and left out where it cannot be had.
-const EXTRAS: &[(&str, &[&[&str]])] = &[
-    ("pymeshlab", &[&["--only-binary", ":all:", "pymeshlab==2025.7.post1"]]),
-    (
-        "scikit-sparse",
-        &[
-            &["--only-binary", ":all:", "Cython==3.3.1", "setuptools==80.9.0", "wheel==0.48.0", "packaging==26.4"],
+/// A package that is added to libigl's environment.
+struct Extra {
+    name: &'static str,
+    /// Files of requirements with hashes, installed one after the other with these further arguments of pip.
+    steps: &'static [(&'static str, &'static [&'static str])],
+    /// Whether it is compiled here, against libraries of the system, and so installed only where asked for.
+    from_source: bool,
+}
+
+/// All of them; each is left out where it cannot be had.
+const EXTRAS: &[Extra] = &[
+    Extra {
+        name: "pymeshlab",
+        steps: &[(include_str!("pymeshlab.txt"), &["--only-binary", ":all:"])],
+        from_source: false,
+    },
+    Extra {
+        name: "scikit-sparse",
+        steps: &[
+            (include_str!("scikit-sparse-build.txt"), &["--only-binary", ":all:"]),
             // From source, with the system's CHOLMOD.
-            &["--no-build-isolation", "--no-deps", "scikit-sparse==0.4.16"],
+            (include_str!("scikit-sparse.txt"), &["--no-build-isolation", "--no-deps"]),
         ],
-    ),
+        from_source: true,
+    },
 ];
 
 /// Lines of a failed command that are worth showing.
@@ -48,11 +65,11 @@ impl Peers {
     }
 
     /// Those of an environment of our own beside that of [`crate::app::compare::libigl`], made on first use: from the network, about a minute.
-    /// `say` hears of packages that cannot be had.
+    /// `build`: packages that are compiled from source, too. `say` hears of packages that cannot be had.
     ///
     /// # Errors
     /// It cannot be made.
-    pub fn ensure(settings: &Settings, say: &mut dyn FnMut(String)) -> Result<Peers, BenchError> {
+    pub fn ensure(settings: &Settings, build: bool, say: &mut dyn FnMut(String)) -> Result<Peers, BenchError> {
         let settings = Peers::settings(settings);
         if let Some(python) = &settings.interpreter {
             return Peers::of(python);
@@ -60,13 +77,14 @@ impl Peers {
         let environment = Environment::with(&settings)
             .map_err(|error| BenchError::Python { python: settings.folder.clone(), reason: error.to_string() })?;
         let mut peers = Peers::found(environment.python, true)?;
-        for (package, steps) in EXTRAS {
-            if peers.versions.contains_key(*package) {
+        for Extra { name, steps, .. } in EXTRAS.iter().filter(|extra| build || !extra.from_source) {
+            if peers.versions.contains_key(*name) {
                 continue;
             }
-            let failed = steps.iter().find_map(|arguments| peers.install(arguments).err());
+            let mut installed = steps.iter().map(|(file, arguments)| peers.install(file, arguments));
+            let failed = installed.find_map(Result::err);
             match failed {
-                Some(reason) => say(format!("{package} cannot be installed: {reason}")),
+                Some(reason) => say(format!("{name} cannot be installed: {reason}")),
                 None => peers = Peers::found(peers.python, true)?,
             }
         }
@@ -96,9 +114,13 @@ impl Peers {
         Ok(peers)
     }
 
-    fn install(&self, arguments: &[&str]) -> Result<(), String> {
+    /// Installs requirements whose hashes pip checks.
+    fn install(&self, requirements: &str, arguments: &[&str]) -> Result<(), String> {
+        let mut file = NamedTempFile::new().map_err(|error| error.to_string())?;
+        file.write_all(requirements.as_bytes()).map_err(|error| error.to_string())?;
         let mut pip = libigl::command(&self.python, true);
-        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input"]).args(arguments);
+        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input"]);
+        pip.arg("--require-hashes").args(arguments).arg("-r").arg(file.path());
         let output = pip.output().map_err(|error| error.to_string())?;
         match output.status.success() {
             true => Ok(()),

@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::app::bench::{self, Entry, Event, Outcome, Peers, Plan, Record};
 use crate::app::compare::libigl::{Environment, Settings};
-use crate::app::experiment::{data_folders, find_experiments};
+use crate::app::experiment::data_folders;
 use crate::io::can_be_written;
 
 #[derive(Args)]
@@ -28,13 +28,16 @@ pub struct Arguments {
     #[arg(long, value_name = "SECONDS", default_value_t = 120, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     limit: u64,
     /// A Python 3 that has peers (libigl, numpy, scipy, scikit-sparse, pymeshlab) [default: $RIEMAP_PYTHON, else an
-    /// environment under target/, made on first use]
+    /// environment in the cache folder, made on first use]
     #[arg(long, value_name = "PROGRAM", conflicts_with = "no_peers")]
     python: Option<PathBuf>,
+    /// Compile scikit-sparse against the system's CHOLMOD into that environment, if it is not there
+    #[arg(long, conflicts_with_all = ["no_peers", "python"])]
+    build_scikit_sparse: bool,
     /// Without peers: riemap alone
     #[arg(long)]
     no_peers: bool,
-    /// Folder of the results: they go into bench/ in it [default: results beside experiments, else here]
+    /// Folder of the results: they go into bench/ in it [default: results]
     #[arg(long, value_name = "FOLDER")]
     results: Option<PathBuf>,
 }
@@ -83,7 +86,7 @@ fn folder(arguments: &Arguments) -> Option<PathBuf> {
     let results = match &arguments.results {
         Some(results) => results.clone(),
         None if arguments.quick => return None,
-        None => find_experiments().unwrap_or_default().join("results"),
+        None => PathBuf::from("results"),
     };
     Some(results.join("bench"))
 }
@@ -119,7 +122,9 @@ fn peers(arguments: &Arguments) -> Result<Option<Peers>> {
         eprintln!("riemap: making a Python environment with the peers in {} (once)", own.folder.display());
     }
     let named = settings.interpreter.is_some();
-    match Peers::ensure(&settings, &mut |problem| eprintln!("riemap: warning: {problem}")) {
+    match Peers::ensure(&settings, arguments.build_scikit_sparse, &mut |problem| {
+        eprintln!("riemap: warning: {problem}")
+    }) {
         Ok(peers) => Ok(Some(peers)),
         Err(error) if named => Err(error).context("$RIEMAP_PYTHON"),
         Err(error) => {

@@ -5,16 +5,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 
-use crate::app::experiment::{Config, find_experiments, records, write_page};
+use crate::app::experiment::{Config, EXPERIMENTS, has_experiments, records, write_page};
 
 use super::experiments::{Options, load};
 
-/// Writes `index.html` into `results`: `shown`, and every other experiment of the clone that has records there.
+/// Writes `index.html` into `results`: `shown`, and every other experiment of the working directory that has records there.
 pub fn write_index(mut shown: Vec<Config>, options: &Options, results: &Path, out: &mut dyn Write) -> Result<()> {
-    let others = match find_experiments() {
-        Some(root) => experiment_files(&root.join("experiments"))?,
-        None => Vec::new(),
-    };
+    let others = if has_experiments() { experiment_files(Path::new(EXPERIMENTS))? } else { Vec::new() };
     // Settings from outside are for those that were run.
     let options = Options { set: Vec::new(), ..options.clone() };
     for path in others {

@@ -1,10 +1,10 @@
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use clap::Args;
 
-use crate::app::experiment::{find_experiments, remove_stale};
+use crate::app::experiment::{EXPERIMENTS, has_experiments, remove_stale};
 
 use super::experiments::{Options, absent, load};
 use super::index::{experiment_files, name, write_index};
@@ -17,18 +17,20 @@ pub struct Arguments {
     names: Vec<String>,
     #[command(flatten)]
     options: Options,
-    /// Folder of the results [default: results beside experiments]
+    /// Folder of the results [default: results]
     #[arg(long, value_name = "FOLDER")]
     results: Option<PathBuf>,
 }
 
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
-    let root = find_experiments().context(
-        "there is no folder `experiments` here, nor where riemap was built: change into a clone of riemap, or use \
-         `riemap run CONFIG.toml`",
-    )?;
-    let experiments = root.join("experiments");
-    let mut paths = experiment_files(&experiments)?;
+    if !has_experiments() {
+        bail!(
+            "there is no folder `experiments` here: change into a clone of riemap, which has one, or use `riemap run \
+             CONFIG.toml`"
+        );
+    }
+    let experiments = Path::new(EXPERIMENTS);
+    let mut paths = experiment_files(experiments)?;
     if !arguments.names.is_empty() {
         let known: Vec<String> = paths.iter().map(|path| name(path)).collect();
         if let Some(unknown) = arguments.names.iter().find(|name| !known.contains(name)) {
@@ -36,7 +38,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
         }
         paths.retain(|path| arguments.names.contains(&name(path)));
     }
-    let results = arguments.results.clone().unwrap_or_else(|| root.join("results"));
+    let results = arguments.results.clone().unwrap_or_else(|| PathBuf::from("results"));
     let configs = load(&paths, &arguments.options)?;
     for (config, data) in absent(&configs) {
         writeln!(out, "{} passed over: {data}", config.name)?;

@@ -1,4 +1,4 @@
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -9,6 +9,7 @@ use toml::de::DeValue;
 use super::document::{Axis, Document, Sources};
 use super::expect;
 use super::folder::sweep_over_folder;
+use super::name::{Names, canonical, is_config_name, is_plot_name, picture_base, run_base};
 use super::{
     Bounds, ConfigError, DataFile, Expectation, GroupSpec, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task, Without,
     convergence,
@@ -16,8 +17,6 @@ use super::{
 
 /// More runs than these in one config are taken for a mistake.
 const MOST_RUNS: usize = 10_000;
-/// Longest name of a run's file, without extension.
-const LONGEST_NAME: usize = 100;
 /// The top-level keys of every config that a single run has, too.
 const HEAD: [&str; 5] = ["title", "claim", "kind", "expect", "expect-where"];
 /// Those that are of all its runs together.
@@ -56,8 +55,10 @@ pub struct Settings {
 pub struct Run {
     /// Its place among all runs of the config, from 0.
     pub position: usize,
-    /// The swept values, as they name the record's file; `run` without a sweep.
+    /// The swept values, such as `n=33,dual=barycentre`; `run` without a sweep.
     pub name: String,
+    /// The middle of the names of its pictures, such as `33-barycentre`.
+    pub picture: String,
     /// The config as resolved.
     pub config: Value,
     /// What the claim says of the result, by dotted key.
@@ -121,7 +122,7 @@ impl Config {
     pub fn load_with(path: &Path, settings: &Settings) -> Result<Self, ConfigError> {
         let text =
             std::fs::read_to_string(path).map_err(|source| ConfigError::Read { path: path.to_owned(), source })?;
-        let name = path.file_stem().and_then(|stem| stem.to_str());
+        let name = path.file_stem().and_then(|stem| stem.to_str()).filter(|name| is_config_name(name));
         let name = name.ok_or_else(|| ConfigError::Name { path: path.to_owned() })?;
         Config::parse(name, Sources::new(&path.display().to_string(), text, settings)?, settings.full)
     }
@@ -138,6 +139,8 @@ impl Config {
             None => kind.columns().iter().map(|(key, label)| Column::new(key, label)).collect(),
         };
         let mut sweep = document.sweep()?;
+        let tables = [&HEAD[..], kind.tables()].concat();
+        sweep.iter().try_for_each(|axis| document.check_axis(axis, &tables))?;
         sweep.retain(|axis| !set.contains(&axis.key));
         sweep_over_folder(&document, &mut sweep)?;
         let mut config = Config {
@@ -172,7 +175,9 @@ impl Config {
             }
         }
         for (name, plot) in &config.plots {
-            if let Some(reason) = plot.contradiction(name) {
+            let unsafe_name = "its name becomes that of files: it may have ASCII letters, digits, - and _, at most 100";
+            let reason = if is_plot_name(name) { plot.contradiction(name) } else { Some(unsafe_name) };
+            if let Some(reason) = reason {
                 return Err(document.wrong_plot(name, reason));
             }
         }
@@ -183,16 +188,23 @@ impl Config {
         if runs.is_none_or(|runs| runs > MOST_RUNS) {
             return Err(ConfigError::TooManyRuns { source_name: config.path, limit: MOST_RUNS });
         }
-        let mut names = HashSet::new();
+        let (mut names, mut pictures, mut known) = (Names::default(), Names::default(), HashMap::new());
         for (position, point) in product(&sweep).into_iter().enumerate() {
             let mut document = document.clone();
             for (key, value) in &point.values {
                 document.assign(&key.split('.').collect::<Vec<_>>(), (*value).clone())?;
             }
-            let run = run((kind, &expectations), position, document, &config.swept, &mut names)?;
-            match config.without.iter().any(|without| without.runs.holds_config(&run.config)) {
-                true => {}
-                false if full || !point.full => config.runs.push(run),
+            let mut run = run((kind, &expectations), position, document)?;
+            if config.without.iter().any(|without| without.runs.holds_config(&run.config)) {
+                continue;
+            }
+            run.name = names.unique(&run_base(&run.config, &config.swept));
+            run.picture = pictures.unique(&picture_base(&run.name));
+            if let Some(first) = known.insert(run.effective(), run.name.clone()) {
+                return Err(ConfigError::EqualRuns { source_name: config.path, first, second: run.name });
+            }
+            match full || !point.full {
+                true => config.runs.push(run),
                 false => config.more.push(run),
             }
         }
@@ -213,6 +225,15 @@ impl Config {
 }
 
 impl Run {
+    /// The config without its bounds, as a text that two runs have in common exactly if they compute the same.
+    fn effective(&self) -> String {
+        let mut config = self.config.clone();
+        if let Some(fields) = config.as_object_mut() {
+            fields.remove("expect");
+        }
+        canonical(&config)
+    }
+
     /// Whether it is no wonder if the run fails: where nothing is claimed of it in an experiment whose runs may.
     pub fn may_fail(&self, config: &Config) -> bool {
         config.may_fail && self.expect.is_empty()
@@ -229,8 +250,6 @@ fn run(
     (kind, expectations): (&dyn Kind, &[Expectation]),
     position: usize,
     mut document: Document,
-    swept: &[String],
-    names: &mut HashSet<String>,
 ) -> Result<Run, ConfigError> {
     let of_all: Bounds = document.optional("expect")?.unwrap_or_default();
     let task = kind.task(&document)?;
@@ -239,27 +258,9 @@ fn run(
     let mut config = document.to_json()?;
     let of_some = expect::resolve(&mut config, expectations);
     let expect = of_all.into_iter().chain(of_some).collect();
-    let base = run_name(&config, swept);
-    let numbered = (2..).map(|i| format!("{base}-{i}"));
-    let name = std::iter::once(base.clone()).chain(numbered).find(|name| !names.contains(name)).unwrap_or(base);
-    names.insert(name.clone());
     let source = config.pointer("/surface/source").and_then(Value::as_str);
     let data = source.and_then(|source| DataFile::find(source, document.data_folders()));
-    Ok(Run { position, name, config, expect, data, task })
-}
-
-/// `n=33,dual=barycentre`: the last part of each swept key with its value, in characters that every file system takes.
-fn run_name(config: &Value, swept: &[String]) -> String {
-    let part = |key: &String| {
-        let value = key.split('.').try_fold(config, |value, name| value.get(name)).unwrap_or(&Value::Null);
-        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-        let last = key.rsplit('.').next().unwrap_or(key);
-        let plain = |c: char| if c.is_ascii_alphanumeric() || "+-._=".contains(c) { c } else { '-' };
-        format!("{last}={}", text.chars().map(plain).collect::<String>())
-    };
-    let mut name = swept.iter().map(part).collect::<Vec<_>>().join(",");
-    name.truncate(LONGEST_NAME);
-    if name.is_empty() { "run".to_owned() } else { name }
+    Ok(Run { position, name: String::new(), picture: String::new(), config, expect, data, task })
 }
 
 /// A choice of one value per axis.

@@ -4,8 +4,6 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::repository::find_experiments;
-
 /// What a source begins with that names a public file.
 const PREFIX: &str = "data:";
 /// The table of public files, as people read it.
@@ -39,13 +37,12 @@ impl Origin {
 }
 
 /// Where public files are looked for: in the folder `named` alone if there is one (the variable `RIEMAP_DATA`), else in
-/// `../shared/data` and `data` of the clone.
+/// `../shared/data` and `data` of the working directory.
 pub fn data_folders(named: Option<OsString>) -> Vec<PathBuf> {
     if let Some(folder) = named.filter(|name| !name.is_empty()) {
         return vec![folder.into()];
     }
-    let clone = find_experiments().unwrap_or_default();
-    ["../shared/data", "data"].map(|folder| clone.join(folder)).into()
+    ["../shared/data", "data"].map(PathBuf::from).into()
 }
 
 /// A public file that an experiment names.

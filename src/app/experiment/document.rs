@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
 
 use super::config::Settings;
 use super::error::{ConfigError, Place};
+use super::name::near;
 
 /// The texts that a config is made of: the file, and every `--set`. They are numbered through, so that the span of a
 /// value tells which of them it came from.
@@ -161,8 +162,23 @@ impl<'a> Document<'a> {
     pub(super) fn check_keys(&self, known: &[&str]) -> Result<(), ConfigError> {
         let unknown = self.root.get_ref().keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
-        let place = self.sources.place(key.span());
-        Err(ConfigError::UnknownKey { place, key: key.get_ref().to_string(), known: known.join(", ") })
+        Err(self.unknown_key(key.span(), key.get_ref(), key.get_ref(), known))
+    }
+
+    /// Fails unless the first part of a swept key is one of `known`: a table that no experiment of this kind reads would be
+    /// set in vain, and its runs would differ in their names alone.
+    pub(super) fn check_axis(&self, axis: &Axis, known: &[&str]) -> Result<(), ConfigError> {
+        let first = axis.key.split('.').next().unwrap_or(&axis.key);
+        if known.contains(&first) {
+            return Ok(());
+        }
+        Err(self.unknown_key(axis.span.clone(), &axis.key, first, known))
+    }
+
+    /// The error of a dotted key whose first part is unknown.
+    fn unknown_key(&self, span: Range<usize>, key: &str, first: &str, known: &[&str]) -> ConfigError {
+        let meant = near(first, known).map(|near| format!("{near}{}", &key[first.len()..]));
+        ConfigError::UnknownKey { place: self.place(span), key: key.to_owned(), meant, known: known.join(", ") }
     }
 
     /// The error of the plot of that name.

@@ -69,14 +69,26 @@ pub enum ConfigError {
         swept: Option<String>,
     },
     /// A top-level key that this kind of experiment does not have.
-    #[error("{place}: unknown key `{key}`; known: {known}\n{}", place.excerpt())]
+    #[error("{place}: unknown key `{key}`{}; known: {known}\n{}", did_you_mean(meant), place.excerpt())]
     UnknownKey {
         /// Where.
         place: Box<Place>,
         /// The key.
         key: String,
+        /// The key of a near name, if there is one.
+        meant: Option<String>,
         /// The keys there are.
         known: String,
+    },
+    /// Two points of the sweep that compute the same: one of the swept values has no effect.
+    #[error("{source_name}: the runs `{first}` and `{second}` have equal configs; leave one of them out of [sweep]")]
+    EqualRuns {
+        /// Path of the config.
+        source_name: String,
+        /// Name of the earlier run.
+        first: String,
+        /// Name of the later run.
+        second: String,
     },
     /// A value that is none of the names it could be.
     #[error("{place}: unknown {what} `{name}`; known: {known}\n{}", place.excerpt())]
@@ -173,11 +185,16 @@ pub enum ConfigError {
         text: String,
     },
     /// A file name that cannot name a folder of results.
-    #[error("{}: the config's file name must be UTF-8 with a name before .toml, which names its results", path.display())]
+    #[error("{}: the config's file name names its results: before .toml it needs letters, digits, - _ and ., a letter or \
+             digit first, and not `figures`, `bench` or `provenance`", path.display())]
     Name {
         /// The path.
         path: PathBuf,
     },
+}
+
+fn did_you_mean(meant: &Option<String>) -> String {
+    meant.as_ref().map(|key| format!(", did you mean `{key}`?")).unwrap_or_default()
 }
 
 /// A run that ended without a result; its text goes into the record.
@@ -287,6 +304,14 @@ pub enum ResultsError {
         path: PathBuf,
         /// The system's word.
         source: std::io::Error,
+    },
+    /// A path that a link leads out of the folder of results.
+    #[error("{}: this leads out of the folder of results, {}; nothing is written or removed there", path.display(), results.display())]
+    Outside {
+        /// The path.
+        path: PathBuf,
+        /// The folder of results.
+        results: PathBuf,
     },
     /// A file of former results that does not go away.
     #[error("{}: the file cannot be removed", path.display())]

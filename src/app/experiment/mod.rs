@@ -10,7 +10,9 @@
 //! | `config.rs`, `shard.rs` | [`Config`]: a file made into [`Run`]s; [`Shard`]s of them |
 //! | `surface.rs`, `data.rs` | `[surface]`; public files, and where they come from |
 //! | `expect.rs`, `without.rs`, `folder.rs` | bounds on results; runs that are not made; meshes of a folder |
+//! | `name.rs` | names of runs and pictures, safe and unique |
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
+//! | `inside.rs` | paths that stay in the folder of results |
 //! | `run.rs`, `stale.rs` | one run → its record and pictures in a folder; those of runs that are no more |
 //! | `batch.rs`, `pool.rs`, `journal.rs` | [`Batch`]: runs in parallel, or in processes of their own; going on after an interruption |
 //! | `page/` | everything → `index.html` |
@@ -40,10 +42,12 @@ mod fit;
 mod folder;
 mod grid;
 mod groups;
+mod inside;
 mod journal;
 mod map;
 mod marks;
 mod model;
+mod name;
 mod normals;
 mod page;
 mod panels;
@@ -85,7 +89,7 @@ pub use page::{page, write_page};
 pub use panels::PanelSpec;
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
 pub use record::{Outcome, Record};
-pub use repository::{find_experiments, revision};
+pub use repository::{EXPERIMENTS, has_experiments, revision};
 pub use run::make_one;
 pub use selection::Selection;
 pub use shard::{NoShard, Shard};

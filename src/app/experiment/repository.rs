@@ -1,14 +1,17 @@
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// Where the program was built: Cargo's manifest.
 const CLONE: &str = env!("CARGO_MANIFEST_DIR");
 
-/// The folder that holds `experiments/` (and gets `results/`): the current one, else the clone that the program was built
-/// in; `None` if neither has experiments.
-pub fn find_experiments() -> Option<PathBuf> {
-    [Path::new(""), Path::new(CLONE)].into_iter().find(|root| root.join("experiments").is_dir()).map(Path::to_owned)
+/// Whether the working directory holds `experiments/`. Nothing is looked for, read or written in the folder that the
+/// program was compiled in.
+pub fn has_experiments() -> bool {
+    Path::new(EXPERIMENTS).is_dir()
 }
+
+/// The folder of experiments, below the working directory.
+pub const EXPERIMENTS: &str = "experiments";
 
 /// The git revision of the clone that the program was built in, with `-dirty` if what the program is made of differs from
 /// it; `None` where that is not to be had.

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
+use super::inside::inside;
 use super::repository::revision;
 use super::{Config, Outcome, Picture, Record, ResultsError, Run, RunError, Yield};
 use crate::app::measure::process::{Bounds, End, watch};
@@ -92,12 +93,12 @@ pub(super) fn versions() -> BTreeMap<String, String> {
 
 /// Writes `<config>/<run>.json` and the pictures, and removes those that the run had and has no more.
 pub(super) fn write(results: &Path, config: &Config, run: &Run, ended: &Ended) -> Result<(), ResultsError> {
-    let path = record_path(results, config, run);
+    let path = inside(results, record_path(config, run))?;
     let former = read(&path).map(|record| record.pictures).unwrap_or_default();
     for (name, picture) in ended.record.pictures.iter().zip(&ended.pictures) {
         write_figure(results, name, &picture.bytes)?;
     }
-    make_folder(&results.join(&config.name))?;
+    make_folder(&inside(results, &config.name)?)?;
     let json = serde_json::to_string_pretty(&ended.record)?;
     atomically(&path, |out| writeln!(out, "{json}"))?;
     remove_pictures(results, former.iter().filter(|name| !ended.record.pictures.contains(name)))
@@ -105,7 +106,7 @@ pub(super) fn write(results: &Path, config: &Config, run: &Run, ended: &Ended) -
 
 /// The record that `results` has of a run, if it is one of the same settings.
 pub(super) fn stored(results: &Path, config: &Config, run: &Run) -> Option<Record> {
-    read(&record_path(results, config, run)).filter(|record| record.config == run.config)
+    read(&results.join(record_path(config, run))).filter(|record| record.config == run.config)
 }
 
 pub(super) fn read(path: &Path) -> Option<Record> {
@@ -118,9 +119,8 @@ pub(super) fn remove_pictures<'n>(
     names: impl IntoIterator<Item = &'n String>,
 ) -> Result<(), ResultsError> {
     for name in names {
-        let path = results.join("figures").join(name);
         if Path::new(name).file_name().is_some_and(|file| file == name.as_str()) {
-            remove(&path)?;
+            remove(&inside(results, Path::new("figures").join(name))?)?;
         }
     }
     Ok(())
@@ -200,12 +200,13 @@ fn with_causes(error: &dyn std::error::Error) -> String {
     text
 }
 
-fn record_path(results: &Path, config: &Config, run: &Run) -> PathBuf {
-    results.join(&config.name).join(format!("{}.json", run.name))
+/// The path of a record below the folder of results.
+fn record_path(config: &Config, run: &Run) -> PathBuf {
+    Path::new(&config.name).join(format!("{}.json", run.name))
 }
 
 fn picture_name(config: &Config, run: &Run, picture: &Picture) -> String {
-    let run = if config.swept.is_empty() { String::new() } else { format!("-{}", run.name) };
+    let run = if config.swept.is_empty() { String::new() } else { format!("-{}", run.picture) };
     format!("{}{run}{}.{}", config.name, picture.suffix, extension(picture.format))
 }
 
@@ -217,9 +218,7 @@ pub(super) fn extension(format: Format) -> &'static str {
 }
 
 pub(super) fn write_figure(results: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, ResultsError> {
-    let folder = results.join("figures");
-    make_folder(&folder)?;
-    let path = folder.join(name);
+    let path = inside(results, Path::new("figures").join(name))?;
     path.parent().map_or(Ok(()), make_folder)?;
     atomically(&path, |out| out.write_all(bytes))?;
     Ok(path)

@@ -1,5 +1,7 @@
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
+use super::inside::inside;
 use super::run::{read, remove, remove_pictures};
 use super::{Config, ResultsError, records};
 
@@ -10,14 +12,14 @@ use super::{Config, ResultsError, records};
 /// # Errors
 /// [`ResultsError::Remove`]: a file does not go away.
 pub fn remove_stale(config: &Config, results: &Path) -> Result<Vec<PathBuf>, ResultsError> {
-    let known: Vec<String> = config.all_runs().iter().map(|run| format!("{}.json", run.name)).collect();
+    let known: HashSet<String> = config.all_runs().iter().map(|run| format!("{}.json", run.name)).collect();
     let kept: Vec<String> = records(config, results).into_iter().flat_map(|record| record.pictures).collect();
     let mut removed = Vec::new();
     // No folder, no records.
-    for entry in results.join(&config.name).read_dir().into_iter().flatten().flatten() {
+    for entry in inside(results, &config.name)?.read_dir().into_iter().flatten().flatten() {
         let path = entry.path();
         let json = path.extension().is_some_and(|extension| extension == "json");
-        if !json || known.iter().any(|name| entry.file_name() == name.as_str()) {
+        if !json || entry.file_name().to_str().is_some_and(|name| known.contains(name)) {
             continue;
         }
         let Some(record) = read(&path).filter(|record| record.experiment == config.name) else { continue };

@@ -1,7 +1,9 @@
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use super::inside::inside;
 use super::run::{extension, stored, write_figure};
 use super::{Config, GroupSpec, Record, ResultsError, fit, grid, groups, without};
 use crate::figure::{FigureError, Format};
@@ -29,7 +31,7 @@ pub fn records(config: &Config, results: &Path) -> Vec<Record> {
 /// # Errors
 /// A key that no record has; a plot or file that cannot be made.
 pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsError> {
-    let folder = results.join(&config.name);
+    let folder = inside(results, &config.name)?;
     // Of shards that end at the same time the last to read must be the last to write. Where the system has no such locks the
     // last shard's table may want a line; any later run mends it.
     let _lock = File::open(&folder).and_then(|folder| folder.lock().map(|()| folder));
@@ -45,7 +47,7 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
     let mut files = Vec::new();
     for (name, timings) in [("table.md", false), ("timings.md", true)] {
         if let Some(text) = table(config, &records, timings) {
-            let path = folder.join(name);
+            let path = inside(results, Path::new(&config.name).join(name))?;
             atomically(&path, |out| out.write_all(text.as_bytes()))?;
             files.push(path);
         }
@@ -72,7 +74,8 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
 
 /// How many of the runs that are to be made have a record.
 fn there(config: &Config, records: &[Record]) -> usize {
-    config.runs.iter().filter(|run| records.iter().any(|record| record.run == run.name)).count()
+    let made: HashSet<&str> = records.iter().map(|record| record.run.as_str()).collect();
+    config.runs.iter().filter(|run| made.contains(run.name.as_str())).count()
 }
 
 /// A misspelt key must not become an empty column or plot. Without a single result there is nothing to check against.

@@ -1,4 +1,5 @@
 use super::interpreter::{self, Versions};
+use super::ownership;
 use super::{LibiglError, Settings};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -42,8 +43,10 @@ impl Environment {
             return Ok(Environment { python: python.clone(), versions, isolated: false });
         }
         let folder = &settings.folder;
-        if let Ok(environment) = Environment::finished(folder) {
-            return Ok(environment);
+        match Environment::finished(folder) {
+            Ok(environment) => return Ok(environment),
+            Err(error @ LibiglError::NotOwn { .. }) => return Err(error),
+            Err(_) => {}
         }
         refuse_foreign(folder)?;
         let lock = lock(folder)?;
@@ -65,6 +68,7 @@ impl Environment {
     /// that made the environment may be gone or replaced by another one since.
     fn finished(folder: &Path) -> Result<Environment, LibiglError> {
         let stale = || LibiglError::Stale { folder: folder.to_path_buf() };
+        ownership::check(folder)?;
         if fs::read(folder.join(STAMP)).ok().as_deref() != Some(REQUIREMENTS.as_bytes()) {
             return Err(stale());
         }
@@ -104,6 +108,7 @@ fn make(settings: &Settings) -> Result<(), LibiglError> {
     let base = interpreter::find(settings.maker.as_deref())?;
     clear(folder)?;
     fs::create_dir_all(folder).map_err(at(folder))?;
+    ownership::close(folder)?;
     let marker = folder.join(MARKER);
     fs::write(&marker, REQUIREMENTS).map_err(at(&marker))?;
 
@@ -118,7 +123,7 @@ fn make(settings: &Settings) -> Result<(), LibiglError> {
     // Wheels only: from source it would take a C++ compiler and half an hour.
     let mut pip = interpreter::command(&python, true);
     pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input"]);
-    run(pip.args(["--only-binary", ":all:", "-r"]).arg(&marker))?;
+    run(pip.args(["--require-hashes", "--only-binary", ":all:", "-r"]).arg(&marker))?;
     run(interpreter::command(&python, true).args(["-c", "import igl; igl.harmonic, igl.cotmatrix"]))?;
 
     let stamp = folder.join(STAMP);
@@ -179,6 +184,6 @@ mod tests {
 
     #[test]
     fn the_pinned_version_is_the_one_installed() {
-        assert!(REQUIREMENTS.lines().any(|line| line == format!("libigl=={VERSION}")));
+        assert!(REQUIREMENTS.lines().any(|line| line.starts_with(&format!("libigl=={VERSION} "))));
     }
 }

@@ -53,6 +53,16 @@ pub enum LibiglError {
         /// The folder.
         folder: PathBuf,
     },
+    /// A part of an environment that someone else could have put there; it is not executed.
+    #[error(
+        "{} belongs to another user or can be written by others, so nothing in it is executed. Remove it, or set \
+         $RIEMAP_PYTHON_ENV to a folder that does not exist.",
+        path.display()
+    )]
+    NotOwn {
+        /// The folder or file.
+        path: PathBuf,
+    },
     /// The environment was not made by this version of riemap, or not to the end.
     #[error("the Python environment in {} is missing, unfinished or made for another version of riemap", folder.display())]
     Stale {

@@ -8,11 +8,11 @@
 //! | variable | what it sets |
 //! |---|---|
 //! | `RIEMAP_PYTHON` | an interpreter that has libigl already; no environment is made |
-//! | `RIEMAP_PYTHON_ENV` | the folder of the environment, in place of `target/riemap-python/libigl` |
+//! | `RIEMAP_PYTHON_ENV` | the folder of the environment, by default `riemap/libigl` in the user's cache folder (`$XDG_CACHE_HOME`, else `~/.cache`) |
 //! | `PYTHON` | the interpreter that makes the environment, in place of `python3`, then `python` |
-//! | `CARGO_TARGET_DIR` | in place of `target` |
 //!
-//! The versions are pinned (`requirements.txt`), not hashed: three Python ranges on three platforms are some 200 wheels.
+//! The versions are pinned with the hashes of their wheels (`requirements.txt`), which pip checks. An environment belongs to
+//! the user and is executed only if nobody else can write to it.
 
 mod environment;
 mod error;
@@ -20,6 +20,7 @@ mod exchange;
 mod harmonic;
 mod interpreter;
 mod lscm;
+mod ownership;
 mod settings;
 mod slim;
 

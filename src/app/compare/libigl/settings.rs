@@ -17,11 +17,12 @@ impl Settings {
     /// From the variables listed at [`crate::app::compare::libigl`].
     pub fn from_variables() -> Settings {
         let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty());
+        let home = env::home_dir().unwrap_or_else(env::temp_dir);
         Settings {
             interpreter: variable("RIEMAP_PYTHON").map(program),
             folder: variable("RIEMAP_PYTHON_ENV")
                 .map(|folder| whole(folder.as_ref()))
-                .unwrap_or_else(|| target(variable("CARGO_TARGET_DIR")).join("riemap-python").join("libigl")),
+                .unwrap_or_else(|| user_cache(variable("XDG_CACHE_HOME"), home).join("riemap").join("libigl")),
             maker: variable("PYTHON").map(program),
         }
     }
@@ -32,14 +33,10 @@ impl Settings {
     }
 }
 
-/// Cargo's folder for what is made: the variable, else the folder `target` the running program lies in, else `./target`.
-fn target(variable: Option<OsString>) -> PathBuf {
-    if let Some(folder) = variable {
-        return whole(folder.as_ref());
-    }
-    let executable = env::current_exe().unwrap_or_default();
-    let enclosing = executable.ancestors().find(|folder| folder.file_name().is_some_and(|name| name == "target"));
-    enclosing.map_or_else(|| whole(Path::new("target")), Path::to_path_buf)
+/// The user's folder for caches: `$XDG_CACHE_HOME`, where it is an absolute path as its specification demands, else
+/// `~/.cache`. Never a folder below the working directory, whose programs may be anybody's.
+fn user_cache(variable: Option<OsString>, home: PathBuf) -> PathBuf {
+    variable.map(PathBuf::from).filter(|folder| folder.is_absolute()).unwrap_or_else(|| home.join(".cache"))
 }
 
 /// A bare name is looked up in `PATH`; a path is made absolute, for calls run in a temporary folder.
@@ -50,4 +47,18 @@ pub(crate) fn program(name: impl Into<PathBuf>) -> PathBuf {
 
 fn whole(path: &Path) -> PathBuf {
     absolute(path).unwrap_or_else(|_| path.to_path_buf())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn environments_are_never_looked_for_below_the_working_directory() {
+        let folder = |variable: &str| user_cache(Some(variable.into()), "/home/u".into());
+        let cache = env::temp_dir();
+        assert_eq!(folder(&cache.to_string_lossy()), cache);
+        assert_eq!(folder("target"), Path::new("/home/u/.cache"));
+        assert_eq!(user_cache(None, "/home/u".into()), Path::new("/home/u/.cache"));
+    }
 }

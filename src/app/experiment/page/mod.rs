@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 use entry::{Entry, Verdict};
 use html::escape;
 
+use super::inside::inside;
 use super::{Config, ResultsError};
 use crate::io::atomically;
 
@@ -66,7 +67,7 @@ fn needs_data(config: &Config) -> bool {
 /// # Errors
 /// [`ResultsError`] where it cannot be written.
 pub fn write_page(configs: &[Config], results: &Path) -> Result<PathBuf, ResultsError> {
-    let path = results.join("index.html");
+    let path = inside(results, "index.html")?;
     let text = page(configs, results);
     super::run::make_folder(results)?;
     atomically(&path, |out| out.write_all(text.as_bytes()))?;
