@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Builds the paper from the records of `riemap reproduce`.
 
-usage: paper/build.py [--results DIR] [--output FILE.pdf] [--pages]
+usage: paper/build.py [--results DIR] [--timings DIR] [--output FILE.pdf] [--pages]
 
-Every number of the text is read from DIR (by default results/) while it is built; one that is missing ends the build with its
-name, and numbers that are typed into the text are refused. Needs Python 3 with venv and, once, the network (PyPI): Typst goes
+Every number of the text is read while it is built, from DIR/NAME/records.jsonl of the results (by default results/) and from
+DIR/NAME.jsonl of the timings (by default paper/timings/). A number that is missing ends the build with its name, and numbers
+that are typed into the text are refused. Timings differ from run to run, so that `riemap reproduce` keeps them in files that
+are not committed; those of the paper are copies: cp results/cost/timings.jsonl paper/timings/cost.jsonl. Needs Python 3 with venv and, once, the network (PyPI): Typst goes
 into an environment under target/.
 """
 
@@ -38,13 +40,21 @@ def environment():
         os.execv(python, [str(python), str(Path(__file__).resolve()), *sys.argv[1:]])
 
 
-def gathered(results):
-    """{experiment: [record, ...]} of all records in a folder of results."""
+def lines(path):
+    """The values of a file with one JSON text a line; none where there is no file."""
+    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()] if path.is_file() else []
+
+
+def gathered(results, timings):
+    """{experiment: [record, ...]} of all records in a folder of results, with the timings that a folder of timings has."""
     records = {}
-    for path in sorted(results.glob("*/*.json")):
-        record = json.loads(path.read_text(encoding="utf-8"))
-        if isinstance(record, dict) and "experiment" in record and record.get("outcome") != "failed":
-            records.setdefault(record["experiment"], []).append(record)
+    for path in sorted(results.glob("*/records.jsonl")):
+        experiment = path.parent.name
+        seconds = {line["run"]: line["timings"] for line in lines(timings / f"{experiment}.jsonl")}
+        for record in lines(path):
+            if record["outcome"] != "failed":
+                record["timings"] = seconds.get(record["run"], {})
+                records.setdefault(experiment, []).append(record)
     if not records:
         sys.exit(f"{results}: no records; make them with `riemap reproduce --results {results}`")
     return records
@@ -115,6 +125,7 @@ def main():
 
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--results", type=Path, default=ROOT / "results")
+    parser.add_argument("--timings", type=Path, default=HERE / "timings")
     parser.add_argument("--output", type=Path, default=ROOT / "target" / "paper" / "riemap.pdf")
     parser.add_argument("--pages", action="store_true", help="write the pages as PNG beside the PDF, too")
     arguments = parser.parse_args()
@@ -126,7 +137,7 @@ def main():
 
     output.parent.mkdir(parents=True, exist_ok=True)
     records = output.parent / "records.json"
-    records.write_text(json.dumps(gathered(results)), encoding="utf-8")
+    records.write_text(json.dumps(gathered(results, arguments.timings)), encoding="utf-8")
     inputs = {"records": str(records), "figures": str(results / "figures")}
     # The lettering of the figures.
     fonts = [ROOT / "src" / "figure" / "font"]

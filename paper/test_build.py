@@ -45,10 +45,11 @@ class MissingRecords(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             results = Path(folder) / "results"
             shutil.copytree(RESULTS, results)
-            for path in (results / "energies").glob("*.json"):
-                record = json.loads(path.read_text(encoding="utf-8"))
+            path = results / "energies" / "records.jsonl"
+            records = build.lines(path)
+            for record in records:
                 del record["result"]["distortion"]
-                path.write_text(json.dumps(record), encoding="utf-8")
+            path.write_text("".join(json.dumps(record) + "\n" for record in records), encoding="utf-8")
             ran = built(results)
             self.assertNotEqual(ran.returncode, 0)
             self.assertIn("no `result.distortion", ran.stderr.replace("has a number", "no"))

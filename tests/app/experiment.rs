@@ -1,11 +1,10 @@
 //! Experiments: strict configs, sweeps and settings, shards, records, and results that are what the code produces.
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use riemap::app::experiment::{self, Batch, Config, Event, Outcome, Record, Shard, table};
+use riemap::app::experiment::{self, Batch, Config, Event, Outcome, Record, Scratch, Shard, records, table};
 use riemap::figure::{Axis, FigureError, Format, Plot, Reference, Series};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -33,7 +32,8 @@ fn names(config: &Config) -> Vec<&str> {
 fn run(config: &Config, shard: Shard, results: &Path) -> Vec<Record> {
     let configs = std::slice::from_ref(config);
     let mut records = Vec::new();
-    Batch { configs, shard, results, threads: NonZeroUsize::MIN, apart: None, journal: None }
+    let scratch = &Scratch::new(results, "program");
+    Batch { configs, shard, threads: NonZeroUsize::MIN, apart: None, scratch }
         .run(&|| false, &mut |event| {
             if let Event::Ended { record, .. } = event {
                 records.push(record.clone());
@@ -170,7 +170,11 @@ fn failures_and_refutations_are_records_and_do_not_stop_the_rest() {
     assert!(records[1].error.as_ref().unwrap().contains("round") && records[1].result.is_null());
     assert!(records[2].error.as_ref().unwrap().contains("`result.input.kind` is \"triangle\", expected \"quad\""));
     let summary = experiment::summarise(&config, results.path()).unwrap();
-    assert_eq!(summary.records, records);
+    // The names of the runs are sorted in the file, and in the summary they are in the order of the sweep.
+    assert_eq!(
+        summary.records.iter().map(Record::same_on_every_run).collect::<Vec<_>>(),
+        records.iter().map(Record::same_on_every_run).collect::<Vec<_>>()
+    );
     let markdown = table(&config, &records, false).unwrap();
     assert!(markdown.contains("failed: ") && markdown.contains("refuted: ") && markdown.contains("| done |"));
 }
@@ -213,9 +217,7 @@ fn experiments() -> Vec<Config> {
 }
 
 fn committed(config: &Config) -> Vec<Record> {
-    let folder = clone().join("results").join(&config.name);
-    let read = |name: &str| fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
-    config.runs.iter().map(|run| serde_json::from_str(&read(&run.name)).unwrap()).collect()
+    records(config, &clone().join("results"))
 }
 
 /// Numbers equal up to what compilers and processors may round differently: relative 1e-6; below 1e-9 all is rounding.
@@ -241,16 +243,20 @@ fn assert_close(a: &Value, b: &Value, key: &str) {
 #[test]
 fn results_have_one_successful_record_of_every_run_and_no_other() {
     for config in experiments() {
-        let records = committed(&config);
-        for (run, record) in config.runs.iter().zip(&records) {
-            assert_eq!(record.config, run.config, "{} {}: run `riemap reproduce` again", config.name, run.name);
-            assert_eq!(record.outcome, Outcome::Done, "{} {}", config.name, run.name);
+        let file = clone().join("results").join(&config.name).join("records.jsonl");
+        let lines = fs::read_to_string(file).unwrap();
+        let found: Vec<Record> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        assert!(found.is_sorted_by_key(|record| &record.run), "{}", config.name);
+        let mut names: Vec<&str> = names(&config);
+        names.sort_unstable();
+        assert!(found.iter().map(|record| record.run.as_str()).eq(names), "{}", config.name);
+        // Records of other settings do not count.
+        let counted = committed(&config);
+        assert_eq!(counted.len(), config.runs.len(), "{}: run `riemap reproduce` again", config.name);
+        for record in counted {
+            assert_eq!(record.outcome, Outcome::Done, "{} {}", config.name, record.run);
+            assert!(record.versions.is_empty(), "{} {}", config.name, record.run);
         }
-        let folder = clone().join("results").join(&config.name).read_dir().unwrap();
-        let files = folder.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let found: BTreeSet<String> = files.filter(|name| name.ends_with(".json")).collect();
-        let expected: BTreeSet<String> = config.runs.iter().map(|run| format!("{}.json", run.name)).collect();
-        assert_eq!(found, expected);
     }
 }
 

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use num_complex::Complex64;
-use riemap::app::experiment::{self, Batch, Caption, Config, Outcome, Record, Shard};
+use riemap::app::experiment::{self, Batch, Caption, Config, Outcome, Record, Scratch, Shard};
 use riemap::app::measure::stopwatch::Stopwatch;
 use riemap::distortion::{Image, corner_errors, face_maps};
 use riemap::figure::{FlatMap, Format, MARK};
@@ -19,7 +19,8 @@ fn study(text: &str, results: &Path) -> Vec<Record> {
     fs::write(&path, text).unwrap();
     let config = Config::load(&path, &[]).unwrap();
     let configs = std::slice::from_ref(&config);
-    let batch = Batch { configs, shard: Shard::ALL, results, threads: NonZeroUsize::MIN, apart: None, journal: None };
+    let scratch = &Scratch::new(results, "program");
+    let batch = Batch { configs, shard: Shard::ALL, threads: NonZeroUsize::MIN, apart: None, scratch };
     batch.run(&|| false, &mut |_| {}).unwrap();
     experiment::summarise(&config, results).unwrap().records
 }

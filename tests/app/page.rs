@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::Command;
 
-use riemap::app::experiment::{Batch, Config, Settings, Shard, page};
+use riemap::app::experiment::{Batch, Config, Scratch, Settings, Shard, page};
 use tempfile::TempDir;
 
 const FIGURE: &str = r#"
@@ -57,8 +57,8 @@ fn made(texts: &[(&str, &str)], shard: &str, folder: &Path) -> String {
     let configs: Vec<Config> = texts.iter().map(load).collect();
     let results = folder.join("results");
     let shard: Shard = shard.parse().unwrap();
-    let batch =
-        Batch { configs: &configs, shard, results: &results, threads: NonZeroUsize::MIN, apart: None, journal: None };
+    let scratch = &Scratch::new(&results, "program");
+    let batch = Batch { configs: &configs, shard, threads: NonZeroUsize::MIN, apart: None, scratch };
     batch.run(&|| false, &mut |_| {}).unwrap();
     page(&configs, &results)
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 
 use riemap::app::experiment::{
-    Abscissa, Batch, Config, Event, FitSpec, Outcome, PlotSpec, Record, Shard, table, trace,
+    Abscissa, Batch, Config, Event, FitSpec, Outcome, PlotSpec, Record, Scratch, Shard, table, trace,
 };
 use riemap::app::measure::stopwatch::Traced;
 use riemap::solver::Iteration;
@@ -169,10 +169,9 @@ fn run(text: &str) -> (tempfile::TempDir, Config, Vec<Record>) {
     let batch = Batch {
         configs: std::slice::from_ref(&config),
         shard: Shard::ALL,
-        results: folder.path(),
         threads: NonZeroUsize::MIN,
         apart: None,
-        journal: None,
+        scratch: &Scratch::new(folder.path(), "program"),
     };
     let mut records = Vec::new();
     let mut collect = |event: Event| {

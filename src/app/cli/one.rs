@@ -6,7 +6,7 @@ use std::process::Command;
 use anyhow::Result;
 use clap::Args;
 
-use crate::app::experiment::{Config, Run, make_one};
+use crate::app::experiment::{Config, Run, Scratch, make_one};
 
 use super::experiments::{Options, load};
 
@@ -26,19 +26,31 @@ pub struct Arguments {
     /// Folder of the results
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     results: PathBuf,
+    /// Name of the program that calls, under which the record is kept until all runs have ended
+    #[arg(long, value_name = "NAME")]
+    program: String,
 }
 
 pub fn run(arguments: &Arguments) -> Result<()> {
     for config in load(std::slice::from_ref(&arguments.config), &arguments.options)? {
-        make_one(&arguments.results, &config, arguments.position)?;
+        make_one(&Scratch::new(&arguments.results, &arguments.program), &config, arguments.position)?;
     }
     Ok(())
 }
 
 /// The command line that makes one run.
-pub fn command(program: &Path, config: &Config, run: &Run, options: &Options, results: &Path) -> Command {
+pub fn command(program: &Path, config: &Config, run: &Run, options: &Options, scratch: &Scratch) -> Command {
     let mut command = Command::new(program);
-    command.args([NAME, &config.path, "--full", "--position", &run.position.to_string(), "--results"]).arg(results);
+    command.args([
+        NAME,
+        &config.path,
+        "--full",
+        "--position",
+        &run.position.to_string(),
+        "--program",
+        scratch.program(),
+    ]);
+    command.arg("--results").arg(scratch.results());
     for set in &options.set {
         command.args(["--set", set]);
     }

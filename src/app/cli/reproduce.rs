@@ -46,8 +46,8 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     // With other settings there may be fewer runs than the config has.
     if arguments.options.set.is_empty() {
         for config in &configs {
-            for record in remove_stale(config, &results)? {
-                writeln!(out, "{} removed: {} has no such run", record.display(), config.path)?;
+            for run in remove_stale(config, &results)? {
+                writeln!(out, "{} {run} removed: {} has no such run", config.name, config.path)?;
             }
         }
     }

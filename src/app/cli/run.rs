@@ -8,7 +8,7 @@ use std::thread::available_parallelism;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use crate::app::experiment::{Batch, Config, Journal, Run};
+use crate::app::experiment::{Batch, Config, Run, Scratch};
 
 use super::display::Display;
 use super::experiments::{Options, absent, load};
@@ -41,13 +41,13 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
 pub fn run_all(configs: &[Config], options: &Options, results: &Path, out: &mut dyn Write) -> Result<()> {
     interrupt::listen();
     let threads = available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    let journal = Journal::of_this_program(results)?;
+    let scratch = &Scratch::of_this_program(results)?;
     if options.fresh {
-        journal.forget(configs, options.shard)?;
+        scratch.forget(configs, options.shard)?;
     }
     let program = env::current_exe().context("the program does not find itself")?;
-    let apart = |config: &Config, run: &Run| one::command(&program, config, run, options, results);
-    let batch = Batch { configs, shard: options.shard, results, threads, apart: Some(&apart), journal: Some(&journal) };
+    let apart = |config: &Config, run: &Run| one::command(&program, config, run, options, scratch);
+    let batch = Batch { configs, shard: options.shard, threads, apart: Some(&apart), scratch };
     let total = batch.runs().count();
     let mut display = Display::new(total);
     let (mut shown, unheard) = (Ok(()), AtomicBool::new(false));

@@ -1,10 +1,10 @@
-use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
-use std::path::Path;
 
 use super::pool::{PoolEvent, pool};
-use super::run::{Ended, make, make_apart, versions, write};
-use super::{Config, Journal, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
+use super::run::{Ended, make, make_apart, write};
+use super::scratch::Scratch;
+use super::store::merge;
+use super::{Config, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
 
 /// Experiments to be run together.
 pub struct Batch<'a> {
@@ -12,17 +12,16 @@ pub struct Batch<'a> {
     pub configs: &'a [Config],
     /// Of each of them.
     pub shard: Shard,
-    /// The folder of the results.
-    pub results: &'a Path,
     /// Runs made at the same time. What comes out does not depend on it.
     pub threads: NonZeroUsize,
     /// How a run is made in a process of its own, where its config limits its time. Without, the limit does not hold.
     pub apart: Option<&'a Maker<'a>>,
-    /// What a former batch has finished, which is not made again, and where this one notes what it finishes.
-    pub journal: Option<&'a Journal>,
+    /// The folder of results, with the records of runs that an interrupted batch of the same program has finished. These
+    /// runs are not made again.
+    pub scratch: &'a Scratch,
 }
 
-/// The command that makes one run and writes its record ([`make_one`](super::make_one)).
+/// The command that makes one run and writes its scratch record ([`make_one`](super::make_one)).
 pub type Maker<'a> = dyn Fn(&Config, &Run) -> std::process::Command + Sync + 'a;
 
 /// What a batch tells while it works.
@@ -93,7 +92,6 @@ impl Batch<'_> {
     /// # Errors
     /// [`ResultsError`] where files cannot be written.
     pub fn run(&self, stop: &(dyn Fn() -> bool + Sync), watch: &mut dyn FnMut(Event)) -> Result<(), ResultsError> {
-        let versions = versions();
         let jobs = self.unfinished(watch);
         let (mut unmade, mut unsummed) = (jobs.len(), 0);
         let mut left = vec![0; self.configs.len()];
@@ -103,7 +101,7 @@ impl Batch<'_> {
         }
         let (alone, together): (Vec<Job>, Vec<Job>) = jobs.into_iter().partition(|job| self.configs[job.0].alone);
         for (jobs, threads) in [(together, self.threads.get()), (alone, 1)] {
-            let work = |item: usize| self.make(jobs[item], &versions, stop);
+            let work = |item: usize| self.make(jobs[item], stop);
             pool(jobs.len(), threads, stop, &work, &mut |told| {
                 match told {
                     PoolEvent::Pulse => watch(Event::Pulse),
@@ -125,11 +123,8 @@ impl Batch<'_> {
                 Ok::<_, ResultsError>(())
             })?;
         }
-        match self.journal {
-            // Where a key of a plot is misspelt the runs need not be made again.
-            Some(journal) if unmade == 0 && unsummed == 0 => journal.forget(self.configs, self.shard),
-            _ => Ok(()),
-        }
+        // Where a key of a plot is misspelt the runs need not be made again.
+        if unmade == 0 && unsummed == 0 { self.scratch.forget(self.configs, self.shard) } else { Ok(()) }
     }
 
     /// What is to be made, after what is finished has been told.
@@ -137,46 +132,29 @@ impl Batch<'_> {
         let mut jobs = self.jobs();
         jobs.retain(|job| {
             let (config, run) = self.of(*job);
-            let Some(record) = self.journal.and_then(|j| j.finished(self.results, config, run)) else { return true };
+            let Some(record) = self.scratch.finished(config, run) else { return true };
             watch(Event::Finished { config, run, record: &record });
             false
         });
         jobs
     }
 
-    fn make(
-        &self,
-        job: Job,
-        versions: &BTreeMap<String, String>,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Option<Ended>, ResultsError> {
+    fn make(&self, job: Job, stop: &dyn Fn() -> bool) -> Result<Option<Ended>, ResultsError> {
         let (config, run) = self.of(job);
-        let ended = match (config.time_limit, self.apart) {
-            (Some(seconds), Some(maker)) => {
-                let Some(ended) = make_apart(self.results, config, run, versions, (seconds, maker(config, run)), stop)?
-                else {
-                    return Ok(None);
-                };
-                ended
-            }
-            _ => {
-                let ended = make(config, run, versions);
-                if ended.record.outcome == Outcome::Failed && stop() {
-                    return Ok(None);
-                }
-                write(self.results, config, run, &ended)?;
-                ended
-            }
-        };
-        if let Some(journal) = self.journal {
-            journal.note(config, run)?;
+        if let (Some(seconds), Some(maker)) = (config.time_limit, self.apart) {
+            return make_apart(self.scratch, config, run, (seconds, maker(config, run)), stop);
         }
+        let ended = make(config, run);
+        if ended.record.outcome == Outcome::Failed && stop() {
+            return Ok(None);
+        }
+        write(self.scratch, config, run, &ended)?;
         Ok(Some(ended))
     }
 
     /// Whether it could be done. Nothing is made of nothing: data may not be here.
     fn sum_up(&self, config: &Config, watch: &mut dyn FnMut(Event)) -> bool {
-        let summary = summarise(config, self.results);
+        let summary = merge(config, self.scratch).and_then(|()| summarise(config, self.scratch.results()));
         match &summary {
             Ok(summary) if summary.records.is_empty() => {}
             Ok(summary) => watch(Event::Summed { config, summary: Ok(summary) }),

@@ -321,14 +321,19 @@ pub enum ResultsError {
         /// The system's word.
         source: std::io::Error,
     },
-    /// No note of what is finished, so that an interrupted batch could not go on.
-    #[error("{}: it cannot be kept what is finished", path.display())]
-    Journal {
+    /// A line of `records.jsonl` that is no record.
+    #[error("{}:{line}: this is no record; mend the line or remove it", path.display())]
+    Line {
         /// The file.
         path: PathBuf,
-        /// The system's word.
-        source: std::io::Error,
+        /// The line, from 1.
+        line: usize,
+        /// The error of the JSON reader.
+        source: serde_json::Error,
     },
+    /// The executable of the running program cannot be read, so that its scratch records have no name.
+    #[error("the program cannot read its own executable")]
+    Program(#[source] std::io::Error),
     /// No thread to run an experiment on.
     #[error("no thread can be started")]
     Thread(#[from] std::io::Error),

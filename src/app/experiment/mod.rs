@@ -1,4 +1,4 @@
-//! Experiments: one TOML file per claim, study or figure; one JSON record per run; tables and plots made of records alone.
+//! Experiments: one TOML file per claim, study or figure; one record per run; tables and plots made of records alone.
 //!
 //! A config names what is run once (`[surface]`, `[map]`, …), what is varied (`[sweep]`: the cartesian product over dotted
 //! keys), what must come out (`[expect]`) and what is shown (`[table]`, `[plots.NAME]`). Any key can be set from outside
@@ -12,9 +12,10 @@
 //! | `expect.rs`, `without.rs`, `folder.rs` | bounds on results; runs that are not made; meshes of a folder |
 //! | `name.rs` | names of runs and pictures, safe and unique |
 //! | `record.rs` | [`Record`]: what a run leaves behind; dotted keys |
-//! | `inside.rs` | paths that stay in the folder of results |
-//! | `run.rs`, `stale.rs` | one run → its record and pictures in a folder; those of runs that are no more |
-//! | `batch.rs`, `pool.rs`, `journal.rs` | [`Batch`]: runs in parallel, or in processes of their own; going on after an interruption |
+//! | `inside.rs`, `files.rs` | paths that stay in the folder of results; writing, removing, locking there |
+//! | `run.rs`, `scratch.rs` | one run → its scratch record and pictures |
+//! | `batch.rs`, `pool.rs` | [`Batch`]: runs in parallel, or in processes of their own; resuming after an interruption |
+//! | `store.rs`, `provenance.rs` | scratch records → `records.jsonl`, `timings.jsonl`, `provenance.json`; removing stale records |
 //! | `page/` | everything → `index.html` |
 //! | `summary.rs`, `grid.rs`, `groups.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs`, `panels.rs` | exponents fitted to the series of plots; plots beside each other |
@@ -25,7 +26,9 @@
 //! | `model.rs` | maps → the surface under its checkerboard, to be turned around in a viewer |
 //! | `repository.rs` | where experiments and results lie; the revision of the program |
 //!
-//! Everything but `timings` and `versions` of a record is the same on every run of the same program, bit for bit.
+//! Results of one experiment are `<results>/<name>/records.jsonl`, one record a line, which the same program writes again bit for
+//! bit on the same platform; `timings.jsonl`, which differs from run to run and is not committed; `table.md`; and pictures and
+//! plots in `<results>/figures/`. `<results>/provenance.json` says which program and platform made them.
 
 mod batch;
 mod caption;
@@ -38,12 +41,12 @@ mod diagram;
 mod document;
 mod error;
 mod expect;
+mod files;
 mod fit;
 mod folder;
 mod grid;
 mod groups;
 mod inside;
-mod journal;
 mod map;
 mod marks;
 mod model;
@@ -54,13 +57,15 @@ mod panels;
 mod peer;
 mod picture;
 mod pool;
+mod provenance;
 mod record;
 mod repository;
 mod run;
+mod scratch;
 mod selection;
 mod shard;
 mod sheet;
-mod stale;
+mod store;
 mod summary;
 mod surface;
 mod theorem;
@@ -82,20 +87,21 @@ pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::{Bound, Bounds, Expectation};
 pub use fit::{Abscissa, FitSpec, Fitted};
 pub use groups::{GroupColumn, GroupSpec, Take};
-pub use journal::Journal;
 pub use marks::{Mark, Marks, Measure};
 pub use model::{ModelError, stage_model};
 pub use page::{page, write_page};
 pub use panels::PanelSpec;
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
+pub use provenance::Provenance;
 pub use record::{Outcome, Record};
 pub use repository::{EXPERIMENTS, has_experiments, revision};
 pub use run::make_one;
+pub use scratch::Scratch;
 pub use selection::Selection;
 pub use shard::{NoShard, Shard};
 pub use sheet::SheetSpec;
-pub use stale::remove_stale;
-pub use summary::{Summary, records, summarise, table};
+pub use store::{records, remove_stale};
+pub use summary::{Summary, summarise, table};
 pub use without::Without;
 
 use crate::figure::Format;

@@ -15,7 +15,7 @@ pub enum Outcome {
     Failed,
 }
 
-/// What one run leaves behind: a JSON file.
+/// The record of one run: a line of `records.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Name of the config.
@@ -33,17 +33,23 @@ pub struct Record {
     /// Its pictures: files in `figures/`.
     #[serde(default)]
     pub pictures: Vec<String>,
-    /// Seconds. Differ from run to run.
+    /// Seconds. They differ from run to run, and are not in `records.jsonl`.
+    #[serde(default, skip_serializing_if = "Value::is_null")]
     pub timings: Value,
-    /// Versions of what took part: `riemap`, its git `revision`, public files, other programs.
+    /// Versions of public files and of other programs that took part. They are not in `records.jsonl`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub versions: BTreeMap<String, String>,
 }
 
 impl Record {
-    /// Whether both say the same of the same: everything but timings and versions.
+    /// The record without timings and versions: the part that is the same on every run of the same program.
+    pub fn same_on_every_run(&self) -> Record {
+        Record { timings: Value::Null, versions: BTreeMap::new(), ..self.clone() }
+    }
+
+    /// Whether two records are equal but for timings and versions.
     pub fn same_numbers(&self, other: &Record) -> bool {
-        let plain = |r: &Record| Record { timings: Value::Null, versions: BTreeMap::new(), ..r.clone() };
-        plain(self) == plain(other)
+        self.same_on_every_run() == other.same_on_every_run()
     }
 
     /// The value at a dotted key: `config.…`, `result.…`, `timings.…`, or `run`, `outcome`, `error`.

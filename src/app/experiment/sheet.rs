@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::run::write_figure;
+use super::files::write_figure;
 use super::{Config, Record, ResultsError};
 use crate::figure::{compose, small_copy};
 

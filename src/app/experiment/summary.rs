@@ -1,10 +1,10 @@
 use std::collections::HashSet;
 use std::fmt::Write as _;
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use super::files::{extension, lock, write_figure};
 use super::inside::inside;
-use super::run::{extension, stored, write_figure};
+use super::store::records;
 use super::{Config, GroupSpec, Record, ResultsError, fit, grid, groups, without};
 use crate::figure::{FigureError, Format};
 use crate::io::atomically;
@@ -18,12 +18,6 @@ pub struct Summary {
     pub files: Vec<PathBuf>,
 }
 
-/// The records that `results` has of `config`'s runs, in the order of the runs, also of those that are not to be made now.
-/// Records of other settings do not count.
-pub fn records(config: &Config, results: &Path) -> Vec<Record> {
-    config.all_runs().into_iter().filter_map(|run| stored(results, config, run)).collect()
-}
-
 /// Sums up the records that `results` has of `config`'s runs, whichever shards they are from: `<config>/table.md` with
 /// everything that is the same on every run, `<config>/timings.md`, and the plots in `figures/`. Without any record nothing
 /// is written.
@@ -32,9 +26,8 @@ pub fn records(config: &Config, results: &Path) -> Vec<Record> {
 /// A key that no record has; a plot or file that cannot be made.
 pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsError> {
     let folder = inside(results, &config.name)?;
-    // Of shards that end at the same time the last to read must be the last to write. Where the system has no such locks the
-    // last shard's table may want a line; any later run mends it.
-    let _lock = File::open(&folder).and_then(|folder| folder.lock().map(|()| folder));
+    // Of shards that end at the same time, the last to read must be the last to write.
+    let _lock = lock(&folder);
     let records = records(config, results);
     if records.is_empty() {
         return Ok(Summary { records, files: Vec::new() });
@@ -44,16 +37,18 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
     if complete {
         check_keys(config, &records)?;
     }
+    // A clone has records without timings.
+    let timed = records.iter().any(|record| !record.timings.is_null());
     let mut files = Vec::new();
     for (name, timings) in [("table.md", false), ("timings.md", true)] {
-        if let Some(text) = table(config, &records, timings) {
+        if let Some(text) = table(config, &records, timings).filter(|_| timed || !timings) {
             let path = inside(results, Path::new(&config.name).join(name))?;
             atomically(&path, |out| out.write_all(text.as_bytes()))?;
             files.push(path);
         }
     }
     let finished = records.iter().any(|record| !record.result.is_null());
-    for (name, spec) in config.plots.iter().filter(|_| finished) {
+    for (name, spec) in config.plots.iter().filter(|(_, spec)| finished && (timed || !spec.is_of_timings())) {
         for format in [Format::Png, Format::Svg] {
             let bytes = match spec.plot(&records).render(format) {
                 // Of runs that may fail, or of which `--set` has made a part, there may be none.
@@ -85,7 +80,8 @@ fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
     let columns = config.columns.iter().map(|column| (&column.key, "table".to_owned()));
     let plots = config.plots.iter().flat_map(|(name, p)| p.keys().map(move |key| (key, format!("plots.{name}"))));
     let groups = config.groups.iter().flat_map(GroupSpec::keys).map(|key| (key, "groups".to_owned()));
-    for (key, table) in columns.chain(groups).chain(plots) {
+    let timed = finished.iter().any(|record| !record.timings.is_null());
+    for (key, table) in columns.chain(groups).chain(plots).filter(|(key, _)| timed || !key.starts_with("timings.")) {
         if finished.iter().all(|record| record.get(key).is_none()) {
             let part = key.split('.').next().unwrap_or(key);
             let known: Vec<String> = example.keys().into_iter().filter(|known| known.starts_with(part)).collect();

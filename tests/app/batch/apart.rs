@@ -20,8 +20,11 @@ fn riemap(folder: &Path, arguments: &[&str], python: Option<&Path>) -> (Option<i
     (status.code(), String::from_utf8(stdout).unwrap() + &String::from_utf8(stderr).unwrap())
 }
 
-fn record(path: &Path) -> Record {
-    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+/// The record of the run whose name ends in `run`.
+fn record(results: &Path, run: &str) -> Record {
+    let text = fs::read_to_string(results.join("study/records.jsonl")).unwrap();
+    let mut records = text.lines().map(|line| serde_json::from_str::<Record>(line).unwrap());
+    records.find(|record| record.run.ends_with(run)).unwrap()
 }
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
@@ -52,14 +55,11 @@ fn a_folder_takes_the_place_of_the_swept_sources() {
     assert!(table.contains("broken.off") && table.contains("| failed: "), "{table}");
     assert!(table.contains("| free | 3 (1 failed) | 2 of 3 |"), "{table}");
     // The same within one process: the same numbers.
-    let path = |results: &str| {
-        let entries = work.path().join(results).join("study").read_dir().unwrap().flatten();
-        entries.map(|entry| entry.path()).find(|path| path.to_string_lossy().ends_with("a.OBJ.json")).unwrap()
-    };
+    let of = |results: &str| record(&work.path().join(results), "a.OBJ");
     let together = study.replace("time-limit = 30\n", "");
     fs::write(work.path().join("study.toml"), together).unwrap();
     assert_eq!(riemap(work.path(), &["run", "study.toml", "--set", &set, "--results", "again"], None).0, Some(0));
-    assert!(record(&path("results")).same_numbers(&record(&path("again"))));
+    assert!(of("results").same_numbers(&of("again")));
 }
 
 #[test]
@@ -96,10 +96,10 @@ fn a_run_over_its_time_ends_with_all_that_it_has_called() {
     let (code, text) = riemap(work.path(), &["run", "study.toml"], Some(&python));
     assert!(begun.elapsed() < Duration::from_secs(60), "it waited for the sleeper");
     assert_eq!(code, Some(1), "{text}");
-    let failed = record(&work.path().join("results/study/name=libigl-harmonic.json"));
+    let failed = record(&work.path().join("results"), "name=libigl-harmonic");
     assert_eq!(failed.error.as_deref(), Some("over the time limit of 1.5 s"));
     assert_eq!(failed.outcome, Outcome::Failed);
-    assert_eq!(record(&work.path().join("results/study/name=riemap.json")).outcome, Outcome::Done);
+    assert_eq!(record(&work.path().join("results"), "name=riemap").outcome, Outcome::Done);
     let pid = fs::read_to_string(pid).unwrap();
     let alive = || Command::new("kill").args(["-0", pid.trim()]).output().unwrap().status.success();
     // A killed process is gone as soon as whoever inherits it has looked at it.

@@ -2,7 +2,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use super::shared::folder;
+use super::shared::{folder, recorded};
 
 const PLANE: &str = "[surface]\nsource = \"plane\"\n[sweep]\n\"surface.parameters.n\" = [4, 5]\n";
 const ABSENT: &str = "[surface]\nsource = \"data:tri/camelhead.off\"\n";
@@ -44,23 +44,17 @@ fn reproduce_passes_over_what_has_no_data_and_run_refuses_it_with_the_same_advic
 #[test]
 fn reproduce_takes_settings_shards_and_full_runs_and_removes_what_is_stale() {
     let folder = clone_with(&[("plane.toml", &format!("{PLANE}[full]\n\"surface.parameters.n\" = [6]\n"))]);
-    let records = || {
-        let entries = fs::read_dir(folder.path().join("results/plane")).unwrap();
-        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let mut names: Vec<String> = names.filter(|name| name.ends_with(".json")).collect();
-        names.sort();
-        names
-    };
+    let records = || recorded(&folder.path().join("results"), "plane");
     assert_eq!(riemap(folder.path(), &["reproduce", "--shard", "2/2"]).0, Some(0));
-    assert_eq!(records(), ["n=5.json"]);
+    assert_eq!(records(), ["n=5"]);
     assert_eq!(riemap(folder.path(), &["reproduce", "--full", "plane"]).0, Some(0));
-    assert_eq!(records(), ["n=4.json", "n=5.json", "n=6.json"]);
+    assert_eq!(records(), ["n=4", "n=5", "n=6"]);
     let (code, text) = riemap(folder.path(), &["reproduce", "--set", "surface.parameters.n=7"]);
     assert!(code == Some(0) && !text.contains("removed"), "{text}");
-    assert_eq!(records(), ["n=4.json", "n=5.json", "n=6.json", "run.json"]);
+    assert_eq!(records(), ["n=4", "n=5", "n=6", "run"]);
     let (code, text) = riemap(folder.path(), &["reproduce"]);
-    assert!(code == Some(0) && text.contains("run.json removed: "), "{text}");
-    assert_eq!(records(), ["n=4.json", "n=5.json", "n=6.json"]);
+    assert!(code == Some(0) && text.contains("plane run removed: "), "{text}");
+    assert_eq!(records(), ["n=4", "n=5", "n=6"]);
 }
 
 #[test]

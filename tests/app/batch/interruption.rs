@@ -3,7 +3,7 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
-use riemap::app::experiment::{Journal, Outcome, RunError, Settings};
+use riemap::app::experiment::{Outcome, RunError, Scratch, Settings};
 
 use super::shared::*;
 
@@ -11,33 +11,29 @@ use super::shared::*;
 fn an_interrupted_batch_goes_on_where_it_was_and_ends_with_the_same_results() {
     let configs = [load("a", STUDY), load("b", &STUDY.replace("plane", "sphere"))];
     let (results, whole) = (folder(), folder());
-    let journal = Journal::new(results.path(), "program");
-    let journalled = || How { journal: Some(&journal), ..How::default() };
-    let first = batch(&configs, results.path(), &How { stop_after: 11, ..journalled() });
+    let first = batch(&configs, results.path(), &How { stop_after: 11, ..How::default() });
     assert_eq!(first.made.len(), 11);
     assert_eq!(first.summed, ["a"]);
-    let second = batch(&configs, results.path(), &journalled());
+    let second = batch(&configs, results.path(), &How::default());
     assert_eq!(second.finished_before.len(), first.made.len());
     assert_eq!(second.made.len(), 16 - first.made.len());
     assert_eq!(second.summed, ["a", "b"]);
     batch(&configs, whole.path(), &How::default());
-    assert!(contents(results.path()) == contents(whole.path()), "or something of the journal remains");
+    assert!(contents(results.path()) == contents(whole.path()), "or a scratch record remains");
 }
 
 #[test]
 fn what_a_complete_batch_or_another_program_left_is_made_again() {
     let configs = [load("study", STUDY)];
     let results = folder();
-    let journal = Journal::new(results.path(), "program");
-    let how = How { journal: Some(&journal), ..How::default() };
+    let how = How::default();
     batch(&configs, results.path(), &how);
     assert_eq!(batch(&configs, results.path(), &how).made.len(), 8, "records of a complete batch are no reason");
     fs::remove_dir_all(results.path()).unwrap();
     assert_eq!(batch(&configs, results.path(), &How { stop_after: 3, ..how }).made.len(), 3);
-    let other = Journal::new(results.path(), "another");
-    let how = How { journal: Some(&other), ..How::default() };
+    let how = How { program: "another", ..How::default() };
     assert_eq!(batch(&configs, results.path(), &how).made.len(), 8);
-    assert!(!results.path().join(".unfinished").exists(), "notes of older programs go as well");
+    assert!(!results.path().join(".unfinished").exists(), "records of older programs go as well");
 }
 
 #[test]
@@ -46,8 +42,7 @@ fn records_of_other_settings_and_failures_are_no_reason_to_skip_a_run() {
     let mut configs = [load("study", text)];
     configs[0].runs[0].task = Box::new(Made(|| Err(RunError::Panic { message: "no network".to_owned() })));
     let results = folder();
-    let journal = Journal::new(results.path(), "program");
-    let how = || How { journal: Some(&journal), ..How::default() };
+    let how = How::default;
     let first = batch(&configs, results.path(), &How { stop_after: 3, ..how() });
     assert_eq!(first.made[0].outcome, Outcome::Failed);
     let sets = vec!["map.weight=unit".to_owned()];
@@ -70,19 +65,13 @@ fn what_fails_because_of_the_interruption_leaves_no_record() {
         Err(RunError::Panic { message: "killed".to_owned() })
     }));
     let results = folder();
-    let (threads, journal) = (std::num::NonZeroUsize::MIN, None);
+    let (threads, scratch) = (std::num::NonZeroUsize::MIN, &Scratch::new(results.path(), "program"));
     let shard = riemap::app::experiment::Shard::ALL;
-    let batch = riemap::app::experiment::Batch {
-        configs: &configs,
-        shard,
-        results: results.path(),
-        threads,
-        apart: None,
-        journal,
-    };
+    let batch = riemap::app::experiment::Batch { configs: &configs, shard, threads, apart: None, scratch };
     batch.run(&|| STOPPED.load(Ordering::SeqCst), &mut |_| {}).unwrap();
-    let files: Vec<PathBuf> = fs::read_dir(results.path().join("study")).unwrap().map(|e| e.unwrap().path()).collect();
-    assert_eq!(files, [results.path().join("study/mesh=quad,n=4.json")]);
+    let scratch = results.path().join(".unfinished/program/study");
+    let files: Vec<PathBuf> = fs::read_dir(&scratch).unwrap().map(|e| e.unwrap().path()).collect();
+    assert_eq!(files, [scratch.join("mesh=quad,n=4.json")]);
 }
 
 // ---- The program, killed -------------------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 use std::thread;
 
-use riemap::app::experiment::{Journal, Shard};
+use riemap::app::experiment::Shard;
 
 use super::shared::*;
 
@@ -9,12 +9,11 @@ fn shards_at_work_at_the_same_time_leave_what_one_batch_leaves() {
     let configs = [load("a", &format!("{STUDY}{PLOT}")), load("b", &STUDY.replace("plane", "sphere"))];
     let (merged, whole) = (folder(), folder());
     batch(&configs, whole.path(), &How::default());
-    let journal = Journal::new(merged.path(), "program");
     thread::scope(|scope| {
         for index in 1..=3 {
-            let (configs, merged, journal) = (&configs, &merged, &journal);
+            let (configs, merged) = (&configs, &merged);
             scope.spawn(move || {
-                let how = How { shard: Shard { index, count: 3 }, journal: Some(journal), ..How::default() };
+                let how = How { shard: Shard { index, count: 3 }, ..How::default() };
                 batch(configs, merged.path(), &how)
             });
         }
@@ -27,11 +26,10 @@ fn shards_at_work_at_the_same_time_leave_what_one_batch_leaves() {
 }
 
 #[test]
-fn a_shard_continues_as_itself_and_leaves_the_notes_of_the_others() {
+fn a_shard_continues_as_itself_and_leaves_the_scratch_records_of_the_others() {
     let configs = [load("study", STUDY)];
     let results = folder();
-    let journal = Journal::new(results.path(), "program");
-    let of = |index| How { shard: Shard { index, count: 2 }, journal: Some(&journal), ..How::default() };
+    let of = |index| How { shard: Shard { index, count: 2 }, ..How::default() };
     let first = batch(&configs, results.path(), &How { stop_after: 2, ..of(1) });
     assert_eq!(batch(&configs, results.path(), &of(2)).made.len(), 4);
     let second = batch(&configs, results.path(), &of(1));

@@ -3,7 +3,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use riemap::app::experiment::{Batch, Config, Event, Journal, Record, RunError, Settings, Shard, Task, Yield};
+use riemap::app::experiment::{Batch, Config, Event, Record, RunError, Scratch, Settings, Shard, Task, Yield};
 use tempfile::TempDir;
 
 /// Eight runs.
@@ -42,13 +42,14 @@ pub fn folder() -> TempDir {
 pub struct How<'a> {
     pub threads: usize,
     pub shard: Shard,
-    pub journal: Option<&'a Journal>,
+    /// Name of the program.
+    pub program: &'a str,
     pub stop_after: usize,
 }
 
 impl Default for How<'_> {
     fn default() -> Self {
-        How { threads: 1, shard: Shard::ALL, journal: None, stop_after: usize::MAX }
+        How { threads: 1, shard: Shard::ALL, program: "program", stop_after: usize::MAX }
     }
 }
 
@@ -67,7 +68,8 @@ pub fn batch(configs: &[Config], results: &Path, how: &How) -> PoolEvent {
     let stop = || how.stop_after != usize::MAX && written(results) >= how.stop_after;
     let mut told = PoolEvent::default();
     let threads = NonZeroUsize::new(how.threads).unwrap();
-    Batch { configs, shard: how.shard, results, threads, apart: None, journal: how.journal }
+    let scratch = &Scratch::new(results, how.program);
+    Batch { configs, shard: how.shard, threads, apart: None, scratch }
         .run(&stop, &mut |event| match event {
             Event::Begun { config, .. } => told.order.push(format!("+{}", config.name)),
             Event::Ended { config, record, .. } => {
@@ -85,14 +87,20 @@ pub fn batch(configs: &[Config], results: &Path, how: &How) -> PoolEvent {
     told
 }
 
-/// How many records there are.
+/// How many scratch records there are.
 fn written(results: &Path) -> usize {
-    let below = |path: &Path| path.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
+    let below = |path: PathBuf| path.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
     let json = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "json");
-    below(results).map(|folder| below(&folder).filter(json).count()).sum()
+    below(results.join(".unfinished")).flat_map(below).flat_map(below).filter(json).count()
 }
 
-/// All files below `results` but timings, by path; of records what is the same on every run.
+/// The names of the runs that have a record in the results of an experiment, in the order of the file.
+pub fn recorded(results: &Path, experiment: &str) -> Vec<String> {
+    let text = fs::read_to_string(results.join(experiment).join("records.jsonl")).unwrap_or_default();
+    text.lines().map(|line| serde_json::from_str::<Record>(line).unwrap().run).collect()
+}
+
+/// All files below `results` but timings, by path.
 pub fn contents(results: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     fn collect(folder: &Path, root: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
         for entry in folder.read_dir().unwrap() {
@@ -105,15 +113,10 @@ pub fn contents(results: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
             if path.file_name().unwrap().to_string_lossy().starts_with('.') {
                 continue;
             }
-            let mut bytes = fs::read(&path).unwrap();
-            if path.extension().unwrap() == "json" {
-                let mut record: Record = serde_json::from_slice(&bytes).unwrap();
-                record.timings = serde_json::Value::Null;
-                record.versions.clear();
-                bytes = serde_json::to_vec(&record).unwrap();
-            }
-            // Both tell of times; the page is compared in tests/page.rs.
-            if !["timings.md", "index.html"].iter().any(|name| path.file_name().unwrap() == *name) {
+            let bytes = fs::read(&path).unwrap();
+            // These tell of times; the page is compared in tests/page.rs.
+            let timed = ["timings.md", "timings.jsonl", "index.html"];
+            if !timed.iter().any(|name| path.file_name().unwrap() == *name) {
                 found.insert(path.strip_prefix(root).unwrap().to_owned(), bytes);
             }
         }

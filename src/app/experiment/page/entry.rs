@@ -11,7 +11,7 @@ use super::is_figure;
 use crate::app::experiment::data::DataFile;
 use crate::app::experiment::grid::grids;
 use crate::app::experiment::sheet::panel;
-use crate::app::experiment::summary::records;
+use crate::app::experiment::store::records;
 use crate::app::experiment::{Config, Outcome, Record, without};
 
 /// More pictures of single runs than these are folded.

@@ -9,14 +9,15 @@ mod highlight;
 mod html;
 mod speed;
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use entry::{Entry, Verdict};
 use html::escape;
 
+use super::files::make_folder;
 use super::inside::inside;
+use super::provenance::Provenance;
 use super::{Config, ResultsError};
 use crate::io::atomically;
 
@@ -69,7 +70,7 @@ fn needs_data(config: &Config) -> bool {
 pub fn write_page(configs: &[Config], results: &Path) -> Result<PathBuf, ResultsError> {
     let path = inside(results, "index.html")?;
     let text = page(configs, results);
-    super::run::make_folder(results)?;
+    make_folder(results)?;
     atomically(&path, |out| out.write_all(text.as_bytes()))?;
     Ok(path)
 }
@@ -82,7 +83,8 @@ pub fn page(configs: &[Config], results: &Path) -> String {
         .map(|part| (part, entries.iter().filter(|entry| (part.holds)(entry.config)).collect::<Vec<_>>()))
         .filter(|(_, members)| !members.is_empty())
         .collect();
-    let mut text = head(&entries);
+    let provenance = Provenance::read(results);
+    let mut text = head(&entries, provenance.as_ref());
     let speed = speed::part(results);
     contents(&mut text, &parts, speed.is_some());
     text.push_str("<main>\n");
@@ -93,12 +95,12 @@ pub fn page(configs: &[Config], results: &Path) -> String {
     }
     text.push_str(&speed.unwrap_or_default());
     text.push_str("</main>\n");
-    text.push_str(&foot(&entries));
+    text.push_str(&foot(provenance.as_ref()));
     text.push_str("</body>\n</html>\n");
     text
 }
 
-fn head(entries: &[Entry]) -> String {
+fn head(entries: &[Entry], provenance: Option<&Provenance>) -> String {
     let mut text = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -107,9 +109,6 @@ fn head(entries: &[Entry]) -> String {
          <p class=\"lead\">Discrete conformal maps of quad meshes, triangle meshes and digital surfaces. Every figure and \
          every study, with its claim, what came of it, its numbers, its configuration, and the command that makes it.</p>\n"
     );
-    let versions = versions(entries);
-    let known =
-        |name: &str| versions.get(name).map(|all| all.iter().map(String::as_str).collect::<Vec<_>>().join(", "));
     let runs: usize = entries.iter().map(|entry| entry.records.len()).sum();
     let mut facts = vec![format!("{runs} runs of {} experiments", entries.len())];
     for verdict in Verdict::ALL {
@@ -119,8 +118,11 @@ fn head(entries: &[Entry]) -> String {
             count => facts.push(format!("{count} {}", verdict.word())),
         }
     }
-    facts.extend(known("riemap").map(|version| format!("version {version}")));
-    facts.extend(known("revision").map(|revision| format!("revision {revision}")));
+    if let Some(Provenance { riemap, revision, platform, .. }) = provenance {
+        facts.push(format!("version {riemap}"));
+        facts.extend(revision.iter().map(|revision| format!("revision {revision}")));
+        facts.push(platform.clone());
+    }
     let facts: String = facts.iter().map(|fact| format!("<li>{}</li>", escape(fact))).collect();
     let _ = writeln!(text, "<ul class=\"facts\">{facts}</ul>\n</header>");
     text
@@ -144,26 +146,14 @@ fn contents(text: &mut String, parts: &[(&Part, Vec<&Entry>)], speed: bool) {
     text.push_str("</nav>\n");
 }
 
-/// What made the records: the versions of each program, and of each file.
-fn versions<'a>(entries: &'a [Entry]) -> BTreeMap<&'a str, BTreeSet<String>> {
-    let mut versions: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
-    for (name, version) in entries.iter().flat_map(|entry| &entry.records).flat_map(|record| &record.versions) {
-        versions.entry(name).or_default().insert(version.clone());
-    }
-    versions
-}
-
-fn foot(entries: &[Entry]) -> String {
+fn foot(provenance: Option<&Provenance>) -> String {
     let mut text = String::from(
-        "<footer>\n<p>Made by <code>riemap reproduce</code> from the records that lie beside this page, one JSON file a run, \
-         with config, numbers, times and versions. Everything but times is the same on every run.</p>\n",
+        "<footer>\n<p>Made by <code>riemap reproduce</code> from the records that lie beside this page, \
+         one line of <code>records.jsonl</code> a run, with config and numbers. Everything but times is the same on every run.</p>\n",
     );
-    let versions = versions(entries);
-    let others: String = versions
-        .iter()
-        .filter(|(name, _)| !["riemap", "revision"].contains(*name))
-        .flat_map(|(name, all)| all.iter().map(move |version| format!("<li>{} {}</li>", escape(name), escape(version))))
-        .collect();
+    let versions = provenance.into_iter().flat_map(|provenance| &provenance.versions);
+    let others: String =
+        versions.map(|(name, version)| format!("<li>{} {}</li>", escape(name), escape(version))).collect();
     if !others.is_empty() {
         let _ = writeln!(text, "<p>What else took part:</p>\n<ul class=\"versions\">{others}</ul>");
     }
