@@ -261,6 +261,17 @@ fn results_have_one_successful_record_of_every_run_and_no_other() {
 }
 
 #[test]
+fn pictures_in_results_have_short_names_that_latex_and_shells_take_as_they_are() {
+    let configs = experiments();
+    experiment::check_figures(&configs).unwrap();
+    for picture in configs.iter().flat_map(committed).flat_map(|record| record.pictures) {
+        let (stem, _) = picture.rsplit_once('.').unwrap();
+        assert!(stem.len() <= 50, "{picture}");
+        assert!(stem.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c)), "{picture}");
+    }
+}
+
+#[test]
 fn tables_and_plots_in_results_are_what_the_records_say() {
     for config in experiments() {
         let records = committed(&config);

@@ -142,7 +142,7 @@ fn a_sheet_holds_the_pictures_of_all_runs_and_has_a_small_copy() {
     let panels: Vec<[u32; 2]> = records
         .iter()
         .map(|record| {
-            let path = figures.join(format!("study-{}-checkerboard.png", record.run));
+            let path = figures.join(&record.pictures[0]);
             // On the map, the colour bar, and the surface.
             let red = marked_pixels(&path) > 0;
             assert_eq!(red, record.result["marked"]["faces"] != 0, "{}", record.run);

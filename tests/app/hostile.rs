@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use riemap::app::experiment::{Batch, Config, Event, ResultsError, Scratch, Settings, Shard};
+use riemap::app::experiment::{Batch, Config, Event, ResultsError, Scratch, Settings, Shard, check_figures};
 
 fn load(folder: &Path, text: &str) -> Result<Config, String> {
     let path = folder.join("study.toml");
@@ -52,6 +52,38 @@ fn names_of_plots_and_configs_that_are_paths_are_refused() {
         fs::write(&path, "[surface]\nsource = \"sphere?n=6\"\n").unwrap();
         assert!(Config::load_with(&path, &Settings::default()).is_err(), "{name}");
     }
+}
+
+#[test]
+fn names_of_swept_values_are_refused_unless_they_are_one_safe_name_a_value() {
+    let named = |names: &str| format!("{}[names]\n{names}\n", swept("\"map.dual\" = [\"incentre\", \"barycentre\"]"));
+    for (names, reason) in [
+        ("\"map.dual\" = [\"a\"]", "another number of names"),
+        ("\"map.dual\" = [\"a\", \"../b\"]", "ASCII letters"),
+        ("\"map.dual\" = [\"a\", 2]", "ASCII letters"),
+        ("\"map.dual\" = [\"a\", \"a\"]", "the same name twice"),
+        ("\"map.weight\" = [\"a\", \"b\"]", "is not swept"),
+    ] {
+        refused(&named(names), &["study.toml:", "of [names]", reason]);
+    }
+    let plot = "[plots.a]\nx = { key = \"result.input.vertices\", label = \"n\" }\n\
+                y = { label = \"H\" }\nseries = [{ y = \"result.input.vertices\", label = \"v\" }]\n";
+    refused(&format!("{}{plot}", named("\"map.dual\" = [\"a\", \"b\"]")), &["would both write figures/study-a"]);
+}
+
+#[test]
+fn experiments_that_would_write_the_same_picture_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let load = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        Config::load_with(&path, &Settings::default()).unwrap()
+    };
+    let sweep = format!("{}[names]\n\"map.dual\" = [\"b\"]\n", swept("\"map.dual\" = [\"incentre\"]"));
+    let configs = [load("a.toml", &sweep), load("a-b.toml", "[surface]\nsource = \"plane\"\n")];
+    assert!(check_figures(&configs[..1]).is_ok());
+    let error = check_figures(&configs).unwrap_err().to_string();
+    assert!(error.contains("a.toml and ") && error.contains("would both write figures/a-b"), "{error}");
 }
 
 #[test]

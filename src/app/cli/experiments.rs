@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
-use crate::app::experiment::{Config, DataFile, Settings, Shard, data_folders};
+use crate::app::experiment::{Config, DataFile, Settings, Shard, check_figures, data_folders};
 
 /// The options that `run` and `reproduce` share.
 #[derive(Args, Clone)]
@@ -29,7 +29,9 @@ pub struct Options {
 pub fn load(paths: &[PathBuf], options: &Options) -> Result<Vec<Config>> {
     let data = data_folders(env::var_os("RIEMAP_DATA"));
     let settings = Settings { sets: options.set.clone(), full: options.full, data };
-    Ok(paths.iter().map(|path| Config::load_with(path, &settings)).collect::<Result<_, _>>()?)
+    let configs = paths.iter().map(|path| Config::load_with(path, &settings)).collect::<Result<Vec<_>, _>>()?;
+    check_figures(&configs)?;
+    Ok(configs)
 }
 
 /// The public files that are needed and not there, each once for every config that needs it.

@@ -9,7 +9,7 @@ use toml::de::DeValue;
 use super::document::{Axis, Document, Sources};
 use super::expect;
 use super::folder::sweep_over_folder;
-use super::name::{Names, canonical, is_config_name, is_plot_name, picture_base, run_base};
+use super::name::{Names, SUFFIXES, canonical, is_config_name, is_plot_name, picture_base, run_base};
 use super::{
     Bounds, ConfigError, DataFile, Expectation, GroupSpec, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task, Without,
     convergence,
@@ -20,8 +20,20 @@ const MOST_RUNS: usize = 10_000;
 /// The top-level keys of every config that a single run has, too.
 const HEAD: [&str; 5] = ["title", "claim", "kind", "expect", "expect-where"];
 /// Those that are of all its runs together.
-const OF_THE_WHOLE: [&str; 11] =
-    ["alone", "folder", "time-limit", "may-fail", "sweep", "full", "without", "table", "groups", "plots", "sheet"];
+const OF_THE_WHOLE: [&str; 12] = [
+    "alone",
+    "folder",
+    "time-limit",
+    "may-fail",
+    "sweep",
+    "full",
+    "names",
+    "without",
+    "table",
+    "groups",
+    "plots",
+    "sheet",
+];
 
 /// A column of an experiment's table.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -189,6 +201,8 @@ impl Config {
             return Err(ConfigError::TooManyRuns { source_name: config.path, limit: MOST_RUNS });
         }
         let (mut names, mut pictures, mut known) = (Names::default(), Names::default(), HashMap::new());
+        config.plots.keys().for_each(|plot| pictures.reserve(plot));
+        let all_named = sweep.iter().all(|axis| !axis.names.is_empty());
         for (position, point) in product(&sweep).into_iter().enumerate() {
             let mut document = document.clone();
             for (key, value) in &point.values {
@@ -198,8 +212,16 @@ impl Config {
             if config.without.iter().any(|without| without.runs.holds_config(&run.config)) {
                 continue;
             }
-            run.name = names.unique(&run_base(&run.config, &config.swept));
-            run.picture = pictures.unique(&picture_base(&run.name));
+            run.name = names.unique(&run_base(&run.config, &config.swept, &point.names), &[""]);
+            let picture = picture_base(&run.name);
+            run.picture = pictures.unique(&picture, &SUFFIXES);
+            if all_named && run.picture != picture && !sweep.is_empty() {
+                return Err(ConfigError::SameFigure {
+                    name: format!("{}-{picture}", config.name),
+                    first: config.path.clone(),
+                    second: config.path,
+                });
+            }
             if let Some(first) = known.insert(run.effective(), run.name.clone()) {
                 return Err(ConfigError::EqualRuns { source_name: config.path, first, second: run.name });
             }
@@ -216,12 +238,50 @@ impl Config {
         self.runs.iter().enumerate().filter(move |(i, _)| i % shard.count == shard.index - 1)
     }
 
+    /// The names, without extension, of the files that its results may have in `figures/`.
+    fn figures(&self) -> Vec<String> {
+        let drawn = |run: &Run, key: &str| run.config.pointer(key).is_some_and(|value| *value != Value::Bool(false));
+        let has_two = |run: &&Run| drawn(run, "/figures/flat") && drawn(run, "/figures/checkerboard");
+        let runs = self.all_runs();
+        // Only two pictures of one run have suffixes.
+        let suffixes = if runs.iter().any(has_two) { &SUFFIXES[1..] } else { &SUFFIXES[..1] };
+        let middles: Vec<String> = match self.swept.is_empty() {
+            true => vec![String::new()],
+            false => runs.iter().map(|run| format!("-{}", run.picture)).collect(),
+        };
+        let plots = self.plots.keys().map(|plot| format!("{}-{plot}", self.name));
+        let pictures = middles.iter().flat_map(|run| suffixes.iter().map(move |suffix| format!("{run}{suffix}")));
+        let pictures = pictures.map(|picture| format!("{}{picture}", self.name));
+        let mut names: Vec<String> = plots.chain(pictures).collect();
+        // The figure of a sheet; with a single picture it is that picture.
+        if self.sheet.is_some() && !names.contains(&self.name) {
+            names.push(self.name.clone());
+        }
+        names
+    }
+
     /// All runs, to be made or not, in their order.
     pub fn all_runs(&self) -> Vec<&Run> {
         let mut runs: Vec<&Run> = self.runs.iter().chain(&self.more).collect();
         runs.sort_by_key(|run| run.position);
         runs
     }
+}
+
+/// Fails where two of `configs` would write the same file in `figures/`.
+///
+/// # Errors
+/// [`ConfigError::SameFigure`].
+pub fn check_figures(configs: &[Config]) -> Result<(), ConfigError> {
+    let mut known: HashMap<String, &str> = HashMap::new();
+    for config in configs {
+        for name in config.figures() {
+            if let Some(first) = known.insert(name.clone(), &config.path) {
+                return Err(ConfigError::SameFigure { name, first: first.to_owned(), second: config.path.clone() });
+            }
+        }
+    }
+    Ok(())
 }
 
 impl Run {
@@ -267,6 +327,8 @@ fn run(
 #[derive(Clone, Default)]
 struct Point<'s, 'a> {
     values: Vec<(&'s str, &'s Spanned<DeValue<'a>>)>,
+    /// The names that `[names]` gives to them.
+    names: Vec<Option<&'s str>>,
     /// Whether one of the values is of `[full]`.
     full: bool,
 }
@@ -277,7 +339,8 @@ fn product<'s, 'a>(axes: &'s [Axis<'a>]) -> Vec<Point<'s, 'a>> {
     for axis in axes {
         let longer = |point: &Point<'s, 'a>, (i, value)| {
             let values = point.values.iter().copied().chain([(axis.key.as_str(), value)]).collect();
-            Point { values, full: point.full || i >= axis.usual }
+            let names = point.names.iter().copied().chain([axis.names.get(i).map(String::as_str)]).collect();
+            Point { values, names, full: point.full || i >= axis.usual }
         };
         points = points
             .iter()

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
 
 use super::config::Settings;
 use super::error::{ConfigError, Place};
-use super::name::near;
+use super::name::{is_plot_name, near};
 
 /// The texts that a config is made of: the file, and every `--set`. They are numbered through, so that the span of a
 /// value tells which of them it came from.
@@ -104,6 +104,8 @@ pub(super) struct Axis<'a> {
     pub(super) values: Vec<Spanned<DeValue<'a>>>,
     /// How many are of `[sweep]`.
     pub(super) usual: usize,
+    /// The names that `[names]` gives to the values; empty where it gives none.
+    pub(super) names: Vec<String>,
     pub(super) span: Range<usize>,
 }
 
@@ -187,10 +189,13 @@ impl<'a> Document<'a> {
         ConfigError::Plot { place: self.sources.place(plot.map_or(0..0, Spanned::span)), plot: name.to_owned(), reason }
     }
 
-    /// The error of a key in `[[without]]` that is not swept over.
+    /// The error of a key in `[[without]]`, `[[expect-where]]` or `[names]` that is not swept.
     pub(super) fn not_swept(&self, table: &str, key: &str, swept: &[String]) -> ConfigError {
-        let place = self.sources.place(self.root.get_ref().get(table).map_or(0..0, Spanned::span));
-        ConfigError::NotSwept { place, table: format!("[[{table}]]"), key: key.to_owned(), known: swept.join(", ") }
+        let value = self.root.get_ref().get(table);
+        let place = self.sources.place(value.map_or(0..0, Spanned::span));
+        let is_array = value.is_some_and(|value| value.get_ref().as_array().is_some());
+        let table = if is_array { format!("[[{table}]]") } else { format!("[{table}]") };
+        ConfigError::NotSwept { place, table, key: key.to_owned(), known: swept.join(", ") }
     }
 
     /// `time-limit`, in seconds.
@@ -214,6 +219,26 @@ impl<'a> Document<'a> {
             };
             axis.values.extend(more.values);
         }
+        for given in self.arrays("names")? {
+            let Some(axis) = axes.iter_mut().find(|axis| axis.key == given.key) else {
+                let known = axes.iter().map(|axis| axis.key.clone()).collect::<Vec<_>>();
+                return Err(self.not_swept("names", &given.key, &known));
+            };
+            let wrong =
+                |reason| ConfigError::Names { place: self.place(given.span.clone()), key: given.key.clone(), reason };
+            let names: Vec<String> =
+                given.values.iter().filter_map(|name| Some(name.get_ref().as_str()?.to_owned())).collect();
+            if given.values.len() != axis.values.len() {
+                return Err(wrong("has another number of names than [sweep] and [full] have values"));
+            }
+            if names.len() < given.values.len() || !names.iter().all(|name| is_plot_name(name)) {
+                return Err(wrong("has something else than names of ASCII letters, digits, - and _"));
+            }
+            if (1..names.len()).any(|i| names[..i].contains(&names[i])) {
+                return Err(wrong("has the same name twice"));
+            }
+            axis.names = names;
+        }
         Ok(axes)
     }
 
@@ -231,7 +256,7 @@ impl<'a> Document<'a> {
             let (key, span) = (path.join("."), values.span());
             match values.get_ref().as_array() {
                 Some(array) if !array.is_empty() => {
-                    arrays.push(Axis { key, values: array.to_vec(), usual: array.len(), span });
+                    arrays.push(Axis { key, values: array.to_vec(), usual: array.len(), names: Vec::new(), span });
                 }
                 _ => return Err(ConfigError::EmptySweep { place: self.sources.place(span), key }),
             }

@@ -140,7 +140,7 @@ pub enum ConfigError {
         /// The dotted key.
         key: String,
     },
-    /// A key of `[full]` or `[[without]]` that `[sweep]` does not have.
+    /// A key of `[full]`, `[names]`, `[[without]]` or `[[expect-where]]` that `[sweep]` does not have.
     #[error("{place}: `{key}` of {table} is not swept; [sweep] has: {known}\n{}", place.excerpt())]
     NotSwept {
         /// Where.
@@ -151,6 +151,26 @@ pub enum ConfigError {
         key: String,
         /// The swept keys.
         known: String,
+    },
+    /// A line of `[names]` that does not name the values of a swept key.
+    #[error("{place}: `{key}` of [names] {reason}\n{}", place.excerpt())]
+    Names {
+        /// Where.
+        place: Box<Place>,
+        /// The swept key.
+        key: String,
+        /// What is wrong with the names.
+        reason: &'static str,
+    },
+    /// Two experiments, or two results of one, that would write the same file.
+    #[error("{first} and {second} would both write figures/{name}: give one of the two another name")]
+    SameFigure {
+        /// The file, without extension.
+        name: String,
+        /// Path of a config.
+        first: String,
+        /// Path of another config, or of the same.
+        second: String,
     },
     /// A folder of meshes that is none.
     #[error("{place}: folder {folder}: {reason}\n{}", place.excerpt())]

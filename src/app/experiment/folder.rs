@@ -25,7 +25,7 @@ pub(super) fn sweep_over_folder<'a>(document: &Document<'a>, sweep: &mut Vec<Axi
     }
     let usual = sources.len();
     let values = sources.into_iter().map(|source| Spanned::new(span.clone(), DeValue::String(source.into())));
-    let axis = Axis { key: SWEPT.to_owned(), values: values.collect(), usual, span: span.clone() };
+    let axis = Axis { key: SWEPT.to_owned(), values: values.collect(), usual, names: Vec::new(), span: span.clone() };
     match sweep.iter_mut().find(|axis| axis.key == SWEPT) {
         Some(swept) => *swept = axis,
         None => sweep.insert(0, axis),

@@ -148,7 +148,7 @@ impl MapTask {
         let FigureSpec { flat, checkerboard, caption, .. } = &self.figures;
         let mut pictures = Vec::new();
         if *flat {
-            // Beside a pair it is not the figure.
+            // Only two pictures of one run need suffixes.
             let suffix = if checkerboard.is_some() { "-flat" } else { "" };
             for format in [Format::Png, Format::Svg] {
                 pictures.push(Picture { suffix, format, bytes: flat_map(mapped, marks, &self.title, format)? });
@@ -159,7 +159,8 @@ impl MapTask {
             let caption = caption.as_ref().map(|caption| caption.filled(&values)).transpose()?;
             let caption = caption.as_deref().unwrap_or(&self.title);
             let bytes = checkerboard_pair(input, mapped, *look, marks, caption)?;
-            pictures.push(Picture { suffix: "-checkerboard", format: Format::Png, bytes });
+            let suffix = if *flat { "-checkerboard" } else { "" };
+            pictures.push(Picture { suffix, format: Format::Png, bytes });
         }
         Ok(pictures)
     }

@@ -1,7 +1,7 @@
 //! Experiments: one TOML file per claim, study or figure; one record per run; tables and plots made of records alone.
 //!
 //! A config names what is run once (`[surface]`, `[map]`, …), what is varied (`[sweep]`: the cartesian product over dotted
-//! keys), what must come out (`[expect]`) and what is shown (`[table]`, `[plots.NAME]`). Any key can be set from outside
+//! keys; `[names]`: short names of swept values, for files), what must come out (`[expect]`) and what is shown (`[table]`, `[plots.NAME]`). Any key can be set from outside
 //! ([`Config::load`]). Keys of records are dotted too: `config.map.dual`, `result.distortion.flipped`, `timings.total`.
 //!
 //! | file | what it holds |
@@ -78,7 +78,7 @@ use serde_json::Value;
 pub use batch::{Batch, Event, Maker};
 pub use caption::{Caption, CaptionError};
 pub use chart::{AxisSpec, PlotSpec, ReferenceSpec, SeriesSpec};
-pub use config::{Column, Config, Run, Settings};
+pub use config::{Column, Config, Run, Settings, check_figures};
 pub use convergence::{Convergence, ConvergenceX, ConvergenceY, trace};
 pub use data::{DataFile, Origin, data_folders};
 pub use diagram::DiagramError;

@@ -7,6 +7,9 @@ use serde_json::Value;
 /// The largest length in bytes of the name of a run, without the number that tells equal names apart.
 const LONGEST: usize = 100;
 
+/// What the names of a run's pictures end in: [`Picture::suffix`](super::Picture::suffix).
+pub(super) const SUFFIXES: [&str; 3] = ["", "-flat", "-checkerboard"];
+
 /// Names that mean something else in a folder of results.
 const RESERVED: [&str; 3] = ["bench", "figures", "provenance"];
 
@@ -19,29 +22,38 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// Returns `base` if it is free, else the first free one of `base-2`, `base-3`, ….
-    pub(super) fn unique(&mut self, base: &str) -> String {
+    /// Makes a name taken.
+    pub(super) fn reserve(&mut self, name: &str) {
+        self.given.insert(name.to_owned());
+    }
+
+    /// Returns the first of `base`, `base-2`, `base-3`, … that is free with each of `suffixes` appended, and takes these
+    /// names.
+    pub(super) fn unique(&mut self, base: &str, suffixes: &[&str]) -> String {
         let last = self.last.entry(base.to_owned()).or_insert(0);
         loop {
             *last += 1;
             let name = if *last == 1 { base.to_owned() } else { format!("{base}-{last}") };
-            if self.given.insert(name.clone()) {
+            if suffixes.iter().all(|suffix| !self.given.contains(&format!("{name}{suffix}"))) {
+                self.given.extend(suffixes.iter().map(|suffix| format!("{name}{suffix}")));
                 return name;
             }
         }
     }
 }
 
-/// The base of a run's name: the last part of each swept key with its value, such as `n=33,dual=barycentre`. Every run of
+/// The base of a run's name: the last part of each swept key with the name that `[names]` gives to its value, else with the
+/// value, such as `n=33,dual=barycentre`. Every run of
 /// other characters than ASCII letters, digits and `+-._=` becomes one hyphen, and a table contributes its values alone, so
 /// that the name is one component of a path whatever the config says.
-pub(super) fn run_base(config: &Value, swept: &[String]) -> String {
-    let part = |key: &String| {
+pub(super) fn run_base(config: &Value, swept: &[String], names: &[Option<&str>]) -> String {
+    let part = |(key, name): (&String, &Option<&str>)| {
         let value = key.split('.').try_fold(config, |value, name| value.get(name)).unwrap_or(&Value::Null);
         let last = key.rsplit('.').next().unwrap_or(key);
-        format!("{}={}", plain(last), plain(&text(value)))
+        let value = name.map_or_else(|| text(value), str::to_owned);
+        format!("{}={}", plain(last), plain(&value))
     };
-    let mut name = swept.iter().map(part).collect::<Vec<_>>().join(",");
+    let mut name = swept.iter().zip(names).map(part).collect::<Vec<_>>().join(",");
     // Every character is one byte here.
     name.truncate(LONGEST);
     if name.is_empty() { "run".to_owned() } else { name }
@@ -146,7 +158,7 @@ mod tests {
     #[test]
     fn equal_bases_get_distinct_names_in_linear_time() {
         let mut names = Names::default();
-        let all: HashSet<String> = (0..200_000).map(|_| names.unique("n=1")).collect();
+        let all: HashSet<String> = (0..200_000).map(|_| names.unique("n=1", &[""])).collect();
         assert_eq!(all.len(), 200_000);
         assert!(all.contains("n=1") && all.contains("n=1-200000"));
     }
@@ -154,15 +166,27 @@ mod tests {
     #[test]
     fn a_base_that_looks_numbered_stays_distinct() {
         let mut names = Names::default();
-        let given = ["a-2", "a", "a", "a-2", "a"].map(|base| names.unique(base));
+        let given = ["a-2", "a", "a", "a-2", "a"].map(|base| names.unique(base, &[""]));
         assert_eq!(given, ["a-2", "a", "a-3", "a-2-2", "a-4"]);
+    }
+
+    #[test]
+    fn pictures_with_their_suffixes_and_plots_have_distinct_names() {
+        let mut names = Names::default();
+        names.reserve("error");
+        let given = ["a", "a-flat", "error", "b-flat", "b"].map(|base| names.unique(base, &SUFFIXES));
+        assert_eq!(given, ["a", "a-flat-2", "error-2", "b-flat", "b-2"]);
     }
 
     #[test]
     fn run_names_are_one_component_of_a_path() {
         let keys = ["x./VICTIM////thesis", "x.aééééééééé", "x...", "x.\n", "surface.source"].map(str::to_owned);
         for key in keys {
-            let name = run_base(&json!({"surface": {"source": "../../$(touch a)%&~.off"}}), std::slice::from_ref(&key));
+            let name = run_base(
+                &json!({"surface": {"source": "../../$(touch a)%&~.off"}}),
+                std::slice::from_ref(&key),
+                &[None],
+            );
             assert!(name.chars().all(|c| c.is_ascii_alphanumeric() || "+-._=".contains(c)), "{name}");
             assert!(name.contains('='), "{name} could be . or ..");
         }
@@ -171,8 +195,9 @@ mod tests {
     #[test]
     fn a_swept_table_is_named_by_its_values() {
         let config = json!({"map": {"boundary": "free", "cut": true}});
-        let name = run_base(&config, &["map".to_owned()]);
+        let name = run_base(&config, &["map".to_owned()], &[None]);
         assert_eq!(name, "map=free-true");
+        assert_eq!(run_base(&config, &["map".to_owned()], &[Some("cut")]), "map=cut");
         assert_eq!(picture_base(&name), "free-true");
         assert_eq!(picture_base("energy=H-0.03-A,n=33"), "H-0-03-A-33");
     }
