@@ -3,7 +3,7 @@
 /// What is sought. Only maps of one kind are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum MapClass {
     /// The boundary on a circle.
     Circle,
     /// The boundary free, angles alone count.
@@ -12,13 +12,13 @@ pub enum Kind {
     Isometric,
 }
 
-impl Kind {
+impl MapClass {
     /// As tables have it.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Circle => "circle",
-            Kind::Free => "free",
-            Kind::Isometric => "isometric",
+            MapClass::Circle => "circle",
+            MapClass::Free => "free",
+            MapClass::Isometric => "isometric",
         }
     }
 }
@@ -114,7 +114,7 @@ pub struct Contestant {
     /// One line.
     pub about: &'static str,
     /// What it seeks.
-    pub kind: Kind,
+    pub kind: MapClass,
     /// Who runs.
     pub program: Program,
     /// No mesh of more vertices than this.
@@ -154,7 +154,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "riemap-circle",
         about: "H + C, nonlinear: the boundary slides on the circle, three points held",
-        kind: Kind::Circle,
+        kind: MapClass::Circle,
         program: Program::Riemap(&["--boundary", "circle", "--valid", "off"]),
         largest: usize::MAX,
         slow: false,
@@ -162,7 +162,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "cholmod-harmonic",
         about: "cotan Laplacian by numpy, boundary held by arc length, SuiteSparse's Cholesky",
-        kind: Kind::Circle,
+        kind: MapClass::Circle,
         program: Program::Peer(&[LIBIGL, CHOLMOD]),
         largest: usize::MAX,
         slow: false,
@@ -170,7 +170,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "libigl-harmonic",
         about: "igl.harmonic, boundary held by arc length",
-        kind: Kind::Circle,
+        kind: MapClass::Circle,
         program: Program::Peer(&[LIBIGL]),
         largest: usize::MAX,
         slow: false,
@@ -178,7 +178,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "meshlab-harmonic",
         about: "MeshLab's harmonic parametrisation",
-        kind: Kind::Circle,
+        kind: MapClass::Circle,
         program: Program::Peer(&[MESHLAB]),
         largest: 100_000,
         slow: true,
@@ -186,7 +186,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "riemap-free",
         about: "H + L', nonlinear: the boundary keeps its lengths",
-        kind: Kind::Free,
+        kind: MapClass::Free,
         program: Program::Riemap(&["--boundary", "free", "--valid", "off"]),
         largest: usize::MAX,
         slow: false,
@@ -194,7 +194,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "libigl-lscm",
         about: "igl.lscm, two boundary vertices held",
-        kind: Kind::Free,
+        kind: MapClass::Free,
         program: Program::Peer(&[LIBIGL]),
         largest: usize::MAX,
         slow: true,
@@ -202,7 +202,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "meshlab-lscm",
         about: "MeshLab's least-squares conformal map",
-        kind: Kind::Free,
+        kind: MapClass::Free,
         program: Program::Peer(&[MESHLAB]),
         largest: 100_000,
         slow: true,
@@ -210,7 +210,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "riemap-isometric",
         about: "H + A + L, to its minimum",
-        kind: Kind::Isometric,
+        kind: MapClass::Isometric,
         program: Program::Riemap(&["--energy", "H + A + L"]),
         largest: 100_000,
         slow: true,
@@ -218,7 +218,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "libigl-slim",
         about: "igl.slim_solve, symmetric Dirichlet, 20 iterations from the harmonic map",
-        kind: Kind::Isometric,
+        kind: MapClass::Isometric,
         program: Program::Peer(&[LIBIGL]),
         largest: 100_000,
         slow: true,
@@ -226,7 +226,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "libigl-arap",
         about: "igl.arap_solve in the plane, 20 iterations from the harmonic map",
-        kind: Kind::Isometric,
+        kind: MapClass::Isometric,
         program: Program::Peer(&[LIBIGL]),
         largest: 100_000,
         slow: true,
@@ -240,7 +240,7 @@ impl Contestant {
         let beyond = |limit: usize| vertices as f64 > 1.1 * limit as f64;
         let all = beyond(self.largest);
         let slow = self.slow && beyond(case.slow_up_to);
-        let isometric = self.kind == Kind::Isometric && beyond(case.isometric_up_to);
+        let isometric = self.kind == MapClass::Isometric && beyond(case.isometric_up_to);
         !(all || slow || isometric)
     }
 

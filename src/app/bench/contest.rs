@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::median::medians;
 use super::python::{lacks, last_words, one_thread};
-use super::record::{Measured, Outcome, Quality, Seconds};
+use super::record::{ContestOutcome, Measured, Quality, Seconds};
 use super::target::Target;
 use super::{BenchError, Contestant, Peers, Program};
 use crate::app::measure::process::{Bounds, End, Ended, watch};
@@ -32,7 +32,7 @@ pub(super) struct Entrant {
     pub contestant: &'static Contestant,
     pub runs: Vec<Measured>,
     quality: Quality,
-    end: Option<Outcome>,
+    end: Option<ContestOutcome>,
 }
 
 /// What a run ended with.
@@ -48,8 +48,8 @@ impl Entrant {
         let limit = rules.limit.as_secs_f64();
         let over = expected.filter(|&seconds| seconds > limit);
         let end = match lacks(rules.peers, contestant) {
-            Some((lacks, install)) => Some(Outcome::LeftOut { lacks, install }),
-            None => over.map(|seconds| Outcome::OverTheLimit { limit, expected: Some(seconds), spent: None }),
+            Some((lacks, install)) => Some(ContestOutcome::LeftOut { lacks, install }),
+            None => over.map(|seconds| ContestOutcome::OverTheLimit { limit, expected: Some(seconds), spent: None }),
         };
         Entrant { contestant, runs: Vec::new(), quality: Quality::default(), end }
     }
@@ -67,19 +67,19 @@ impl Entrant {
                 self.runs.push(measured);
                 self.quality = quality;
             }
-            Run::Done(_, Err(reason)) | Run::Failed(reason) => self.end = Some(Outcome::Failed { reason }),
+            Run::Done(_, Err(reason)) | Run::Failed(reason) => self.end = Some(ContestOutcome::Failed { reason }),
             Run::Stopped { spent } => {
                 let limit = rules.limit.as_secs_f64();
-                self.end = Some(Outcome::OverTheLimit { limit, expected: None, spent });
+                self.end = Some(ContestOutcome::OverTheLimit { limit, expected: None, spent });
             }
         }
         Ok(())
     }
 
     /// What came of it.
-    pub fn outcome(&self) -> Outcome {
-        let done = || medians(&self.runs).map(|median| Outcome::Done { median, quality: self.quality });
-        let never = || Outcome::Failed { reason: "it never ran".to_owned() };
+    pub fn outcome(&self) -> ContestOutcome {
+        let done = || medians(&self.runs).map(|median| ContestOutcome::Done { median, quality: self.quality });
+        let never = || ContestOutcome::Failed { reason: "it never ran".to_owned() };
         self.end.clone().or_else(done).unwrap_or_else(never)
     }
 }

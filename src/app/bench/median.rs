@@ -42,7 +42,7 @@ pub fn compare(entries: &mut [Entry]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::bench::record::{Outcome, Quality};
+    use crate::app::bench::record::{ContestOutcome, Quality};
 
     #[test]
     fn the_median_is_the_middle_one() {
@@ -70,8 +70,8 @@ mod tests {
     fn entry(contestant_name: &'static str, size: usize, cpu: Option<f64>) -> Entry {
         let kind = contestant(contestant_name).expect("in the table").kind;
         let outcome = match cpu {
-            Some(cpu) => Outcome::Done { median: run(cpu, None), quality: Quality::default() },
-            None => Outcome::Failed { reason: "it failed".to_owned() },
+            Some(cpu) => ContestOutcome::Done { median: run(cpu, None), quality: Quality::default() },
+            None => ContestOutcome::Failed { reason: "it failed".to_owned() },
         };
         let (case, mesh, runs, ratio) = ("grid", "grid".to_owned(), Vec::new(), None);
         Entry { case, size, mesh, vertices: size, faces: size, contestant: contestant_name, kind, runs, outcome, ratio }

@@ -7,10 +7,9 @@
 //! | `python.rs`, `peers.py` | the interpreter with the peers, and what it runs |
 //! | `target.rs` | the mesh as files, and the measure of what comes back |
 //! | `exchange.rs` | the speed of reading and writing |
-//! | `record.rs`, `median.rs`, `bar.rs` | what is kept; medians and ratios; the bars that the program is held to |
+//! | `record.rs`, `median.rs`, `requirement.rs` | what is kept; medians and ratios; the bars that the program is held to |
 //! | `table.rs`, `chart.rs` | Markdown, CSV and plots of it |
 
-mod bar;
 mod case;
 mod chart;
 mod contest;
@@ -19,19 +18,20 @@ mod exchange;
 mod median;
 mod python;
 mod record;
+mod requirement;
 mod run;
 mod table;
 mod target;
 
 use std::path::{Path, PathBuf};
 
-pub use bar::{Verdict, verdicts};
-pub use case::{CASES, CONTESTANTS, Case, Contestant, Kind, Package, Program, Source, case};
+pub use case::{CASES, CONTESTANTS, Case, Contestant, MapClass, Package, Program, Source, case};
 pub use chart::plots;
 pub use error::BenchError;
 pub use median::medians;
 pub use python::Peers;
-pub use record::{Entry, Exchange, Measured, Outcome, Quality, Record, Seconds};
+pub use record::{ContestOutcome, Entry, Exchange, Measured, Quality, Record, Seconds};
+pub use requirement::{Verdict, verdicts};
 pub use run::{Event, Plan, chosen, run};
 pub use table::{bars, brief, csv, markdown};
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::Kind;
+use super::MapClass;
 use crate::distortion::Distortion;
 
 /// Seconds by both clocks.
@@ -58,7 +58,7 @@ impl Quality {
 /// How a contestant did on a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "outcome")]
-pub enum Outcome {
+pub enum ContestOutcome {
     /// It has a map.
     Done {
         /// Medians of the runs.
@@ -105,12 +105,12 @@ pub struct Entry {
     /// Name of the contestant.
     pub contestant: &'static str,
     /// What it seeks.
-    pub kind: Kind,
+    pub kind: MapClass,
     /// Every run.
     pub runs: Vec<Measured>,
     /// What came of them.
     #[serde(flatten)]
-    pub outcome: Outcome,
+    pub outcome: ContestOutcome,
     /// Ours over this, processor seconds of the solve; peers that are done.
     pub ratio: Option<f64>,
 }
@@ -119,7 +119,7 @@ impl Entry {
     /// The medians, where there are any.
     pub fn median(&self) -> Option<&Measured> {
         match &self.outcome {
-            Outcome::Done { median, .. } => Some(median),
+            ContestOutcome::Done { median, .. } => Some(median),
             _ => None,
         }
     }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::contest::{Entrant, Rules};
 use super::exchange::exchange;
 use super::median::compare;
-use super::record::{Entry, Outcome, Record};
+use super::record::{ContestOutcome, Entry, Record};
 use super::target::Target;
 use super::{BenchError, CASES, CONTESTANTS, Case, Peers, Source, case};
 
@@ -54,7 +54,7 @@ pub enum Event<'a> {
 ///
 /// # Errors
 /// Unknown cases; meshes that cannot be made; a system that does not let processes be run. A contestant that fails is an
-/// [`Outcome`].
+/// [`ContestOutcome`].
 pub fn run(plan: &Plan, peers: Option<&Peers>, tell: &mut dyn FnMut(Event)) -> Result<Record, BenchError> {
     let cases = chosen(&plan.cases)?;
     let riemap = env::current_exe().map_err(BenchError::io("the running program cannot be found"))?;
@@ -147,9 +147,9 @@ fn meshes(case: &Case, plan: &Plan, passed_over: &mut Vec<String>) -> Vec<(Optio
 fn expected(record: &Record, case: &Case, contestant: &str, vertices: usize) -> Option<f64> {
     let earlier = record.entries.iter().rev().find(|e| e.case == case.name && e.contestant == contestant)?;
     let seconds = match &earlier.outcome {
-        Outcome::Done { median, .. } => median.whole.wall,
-        Outcome::OverTheLimit { limit, expected, .. } => expected.unwrap_or(*limit),
-        Outcome::Failed { .. } | Outcome::LeftOut { .. } => return None,
+        ContestOutcome::Done { median, .. } => median.whole.wall,
+        ContestOutcome::OverTheLimit { limit, expected, .. } => expected.unwrap_or(*limit),
+        ContestOutcome::Failed { .. } | ContestOutcome::LeftOut { .. } => return None,
     };
     Some(seconds * vertices as f64 / earlier.vertices as f64)
 }

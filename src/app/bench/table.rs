@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::bar::{Verdict, verdicts};
-use super::record::{Entry, Measured, Outcome, Quality, Record};
+use super::record::{ContestOutcome, Entry, Measured, Quality, Record};
+use super::requirement::{Verdict, verdicts};
 use super::{Contestant, contestant};
 
 /// The bars and one table per mesh, in Markdown.
@@ -70,10 +70,10 @@ pub fn csv(record: &Record) -> String {
     for entry in &record.entries {
         let Entry { case, size, vertices, faces, contestant, kind, runs, outcome, ratio, .. } = entry;
         let name = match outcome {
-            Outcome::Done { .. } => "done",
-            Outcome::OverTheLimit { .. } => "over-the-limit",
-            Outcome::Failed { .. } => "failed",
-            Outcome::LeftOut { .. } => "left-out",
+            ContestOutcome::Done { .. } => "done",
+            ContestOutcome::OverTheLimit { .. } => "over-the-limit",
+            ContestOutcome::Failed { .. } => "failed",
+            ContestOutcome::LeftOut { .. } => "left-out",
         };
         let number = |x: Option<f64>| x.map(|x| format!("{x:?}")).unwrap_or_default();
         let of = |f: &dyn Fn(&Measured) -> Option<f64>| number(entry.median().and_then(f));
@@ -112,7 +112,7 @@ fn meshes(record: &Record) -> Vec<Vec<&Entry>> {
 
 fn row(entry: &Entry) -> String {
     let (name, kind) = (entry.contestant, entry.kind.name());
-    let Outcome::Done { median, quality } = &entry.outcome else {
+    let ContestOutcome::Done { median, quality } = &entry.outcome else {
         return format!("| {name} | {kind} | {}{} |\n", brief(&entry.outcome), " |".repeat(11));
     };
     let seconds = |s: Option<f64>| s.map_or("–".to_owned(), |s| format!("{s:.3}"));
@@ -136,15 +136,15 @@ fn row(entry: &Entry) -> String {
 }
 
 /// An outcome without numbers, in a few words.
-pub fn brief(outcome: &Outcome) -> String {
+pub fn brief(outcome: &ContestOutcome) -> String {
     match outcome {
-        Outcome::Done { .. } => "done".to_owned(),
-        Outcome::OverTheLimit { limit, expected: None, .. } => format!("over the limit of {limit} s, stopped"),
-        Outcome::OverTheLimit { limit, expected: Some(seconds), .. } => {
+        ContestOutcome::Done { .. } => "done".to_owned(),
+        ContestOutcome::OverTheLimit { limit, expected: None, .. } => format!("over the limit of {limit} s, stopped"),
+        ContestOutcome::OverTheLimit { limit, expected: Some(seconds), .. } => {
             format!("over the limit of {limit} s by the smaller mesh ({seconds:.0} s or more), not begun")
         }
-        Outcome::Failed { .. } => "failed".to_owned(),
-        Outcome::LeftOut { lacks, .. } => format!("left out: {lacks} is not installed"),
+        ContestOutcome::Failed { .. } => "failed".to_owned(),
+        ContestOutcome::LeftOut { lacks, .. } => format!("left out: {lacks} is not installed"),
     }
 }
 
@@ -159,9 +159,13 @@ fn notes(record: &Record) -> String {
         }
         let name = entry.contestant;
         let what = match &entry.outcome {
-            Outcome::Failed { reason } => format!("{name} failed on {} at {}: {reason}", entry.case, entry.vertices),
-            Outcome::LeftOut { lacks, install } => format!("{name} is left out: {lacks} is not installed; {install}"),
-            Outcome::Done { .. } | Outcome::OverTheLimit { .. } => continue,
+            ContestOutcome::Failed { reason } => {
+                format!("{name} failed on {} at {}: {reason}", entry.case, entry.vertices)
+            }
+            ContestOutcome::LeftOut { lacks, install } => {
+                format!("{name} is left out: {lacks} is not installed; {install}")
+            }
+            ContestOutcome::Done { .. } | ContestOutcome::OverTheLimit { .. } => continue,
         };
         if !said.contains(&what) {
             said.push(what);
@@ -179,7 +183,7 @@ fn notes(record: &Record) -> String {
 
 fn quality(entry: &Entry) -> Option<Quality> {
     match entry.outcome {
-        Outcome::Done { quality, .. } => Some(quality),
+        ContestOutcome::Done { quality, .. } => Some(quality),
         _ => None,
     }
 }

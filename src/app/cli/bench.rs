@@ -5,7 +5,7 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use crate::app::bench::{self, Entry, Event, Outcome, Peers, Plan, Record};
+use crate::app::bench::{self, ContestOutcome, Entry, Event, Peers, Plan, Record};
 use crate::app::compare::libigl::{Environment, Settings};
 use crate::app::experiment::data_folders;
 use crate::io::can_be_written;
@@ -154,12 +154,14 @@ fn print(out: &mut dyn Write, event: &Event) -> Result<()> {
 fn line(out: &mut dyn Write, entry: &Entry) -> Result<()> {
     let Entry { contestant, outcome, ratio, .. } = entry;
     let (median, quality) = match outcome {
-        Outcome::Done { median, quality } => (median, quality),
-        Outcome::Failed { reason } => return Ok(writeln!(out, "  {contestant:<18} failed: {reason}")?),
-        Outcome::LeftOut { install, .. } => {
+        ContestOutcome::Done { median, quality } => (median, quality),
+        ContestOutcome::Failed { reason } => return Ok(writeln!(out, "  {contestant:<18} failed: {reason}")?),
+        ContestOutcome::LeftOut { install, .. } => {
             return Ok(writeln!(out, "  {contestant:<18} {}: {install}", bench::brief(outcome))?);
         }
-        Outcome::OverTheLimit { .. } => return Ok(writeln!(out, "  {contestant:<18} {}", bench::brief(outcome))?),
+        ContestOutcome::OverTheLimit { .. } => {
+            return Ok(writeln!(out, "  {contestant:<18} {}", bench::brief(outcome))?);
+        }
     };
     let seconds = |s: Option<f64>| s.map_or("–".to_owned(), |s| format!("{s:.3}"));
     writeln!(
@@ -180,7 +182,7 @@ fn line(out: &mut dyn Write, entry: &Entry) -> Result<()> {
 fn fail_where_ours_did(record: &Record) -> Result<()> {
     let ours = |entry: &&Entry| bench::contestant(entry.contestant).is_some_and(|contestant| contestant.is_ours());
     for entry in record.entries.iter().filter(ours) {
-        if let Outcome::Failed { reason } = &entry.outcome {
+        if let ContestOutcome::Failed { reason } = &entry.outcome {
             bail!("{} failed on {} at {} vertices: {reason}", entry.contestant, entry.case, entry.vertices);
         }
     }

@@ -1,7 +1,7 @@
 use std::num::NonZeroUsize;
 
 use super::pool::{PoolEvent, pool};
-use super::run::{Ended, make, make_apart, write};
+use super::run::{EndedRun, make, make_apart, write};
 use super::scratch::Scratch;
 use super::store::merge;
 use super::{Config, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
@@ -111,7 +111,7 @@ impl Batch<'_> {
                     }
                     PoolEvent::Ended(item, ended) => {
                         let (config, run) = self.of(jobs[item]);
-                        let Some(Ended { record, seconds, .. }) = ended? else { return Ok(()) };
+                        let Some(EndedRun { record, seconds, .. }) = ended? else { return Ok(()) };
                         watch(Event::Ended { config, run, record: &record, seconds });
                         unmade -= 1;
                         left[jobs[item].0] -= 1;
@@ -139,7 +139,7 @@ impl Batch<'_> {
         jobs
     }
 
-    fn make(&self, job: Job, stop: &dyn Fn() -> bool) -> Result<Option<Ended>, ResultsError> {
+    fn make(&self, job: Job, stop: &dyn Fn() -> bool) -> Result<Option<EndedRun>, ResultsError> {
         let (config, run) = self.of(job);
         if let (Some(seconds), Some(maker)) = (config.time_limit, self.apart) {
             return make_apart(self.scratch, config, run, (seconds, maker(config, run)), stop);

@@ -1,18 +1,18 @@
 use std::collections::{BTreeMap, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Deserialize;
 use serde_json::Value;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::document::{Axis, Document, Sources};
+use super::document::{Document, Settings, Sources, SweptKey};
 use super::expect;
 use super::folder::sweep_over_folder;
 use super::name::{Names, SUFFIXES, canonical, is_config_name, is_plot_name, picture_base, run_base};
 use super::{
-    Bounds, ConfigError, DataFile, Expectation, GroupSpec, KINDS, Kind, PlotSpec, Shard, SheetSpec, Task, Without,
-    convergence,
+    Bounds, ConfigError, DataFile, Expectation, ExperimentKind, GroupSpec, KINDS, PlotSpec, Shard, SheetSpec, Task,
+    Without, convergence,
 };
 
 /// More runs than these in one config are taken for a mistake.
@@ -52,17 +52,6 @@ struct Table {
     columns: Vec<Column>,
 }
 
-/// What is asked of configs from outside.
-#[derive(Clone, Debug, Default)]
-pub struct Settings {
-    /// Texts like `dotted.key=value`. One of a swept key takes the place of the sweep over it.
-    pub sets: Vec<String>,
-    /// Whether the runs that `[full]` adds are to be made.
-    pub full: bool,
-    /// Where the files of `data:` sources are looked for, the first place first.
-    pub data: Vec<PathBuf>,
-}
-
 /// One point of the sweep.
 pub struct Run {
     /// Its place among all runs of the config, from 0.
@@ -92,7 +81,7 @@ pub struct Config {
     /// What it is to show.
     pub claim: String,
     /// What one run does.
-    pub kind: &'static dyn Kind,
+    pub kind: &'static dyn ExperimentKind,
     /// Whether its runs are timed, so that nothing else may run beside them.
     pub alone: bool,
     /// Seconds after which a run is ended; each is then made in a process of its own, where [`Batch::apart`](super::Batch::apart) says
@@ -307,7 +296,7 @@ impl Column {
 }
 
 fn run(
-    (kind, expectations): (&dyn Kind, &[Expectation]),
+    (kind, expectations): (&dyn ExperimentKind, &[Expectation]),
     position: usize,
     mut document: Document,
 ) -> Result<Run, ConfigError> {
@@ -334,7 +323,7 @@ struct Point<'s, 'a> {
 }
 
 /// Every choice of one value per axis, the last axis fastest.
-fn product<'s, 'a>(axes: &'s [Axis<'a>]) -> Vec<Point<'s, 'a>> {
+fn product<'s, 'a>(axes: &'s [SweptKey<'a>]) -> Vec<Point<'s, 'a>> {
     let mut points = vec![Point::default()];
     for axis in axes {
         let longer = |point: &Point<'s, 'a>, (i, value)| {

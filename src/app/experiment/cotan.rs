@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use serde_json::json;
 
 use super::surface::SurfaceSpec;
-use super::{ConfigError, Document, Kind, RunError, Task, Yield};
+use super::{ConfigError, Document, ExperimentKind, RunError, Task, Yield};
 use crate::app::compare::libigl::{Environment, Settings};
 use crate::app::compare::verify::{CotanMap, compare};
 use crate::app::measure::stopwatch::Stopwatch;
@@ -16,7 +16,7 @@ struct CotanTask {
     surface: SurfaceSpec,
 }
 
-impl Kind for CotanKind {
+impl ExperimentKind for CotanKind {
     fn name(&self) -> &'static str {
         "cotan"
     }

@@ -6,9 +6,19 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
 
-use super::config::Settings;
 use super::error::{ConfigError, Place};
 use super::name::{is_plot_name, near};
+
+/// What is asked of configs from outside.
+#[derive(Clone, Debug, Default)]
+pub struct Settings {
+    /// Texts like `dotted.key=value`. One of a swept key takes the place of the sweep over it.
+    pub sets: Vec<String>,
+    /// Whether the runs that `[full]` adds are to be made.
+    pub full: bool,
+    /// Where the files of `data:` sources are looked for, the first place first.
+    pub data: Vec<PathBuf>,
+}
 
 /// The texts that a config is made of: the file, and every `--set`. They are numbered through, so that the span of a
 /// value tells which of them it came from.
@@ -97,7 +107,7 @@ impl Sources {
 }
 
 /// A swept key.
-pub(super) struct Axis<'a> {
+pub(super) struct SweptKey<'a> {
     /// Dotted.
     pub(super) key: String,
     /// Those of `[sweep]`, then those of `[full]`.
@@ -169,7 +179,7 @@ impl<'a> Document<'a> {
 
     /// Fails unless the first part of a swept key is one of `known`: a table that no experiment of this kind reads would be
     /// set in vain, and its runs would differ in their names alone.
-    pub(super) fn check_axis(&self, axis: &Axis, known: &[&str]) -> Result<(), ConfigError> {
+    pub(super) fn check_axis(&self, axis: &SweptKey, known: &[&str]) -> Result<(), ConfigError> {
         let first = axis.key.split('.').next().unwrap_or(&axis.key);
         if known.contains(&first) {
             return Ok(());
@@ -208,7 +218,7 @@ impl<'a> Document<'a> {
     }
 
     /// The swept keys in the order of the file, each with its values.
-    pub(super) fn sweep(&self) -> Result<Vec<Axis<'a>>, ConfigError> {
+    pub(super) fn sweep(&self) -> Result<Vec<SweptKey<'a>>, ConfigError> {
         let mut axes = self.arrays("sweep")?;
         for more in self.arrays("full")? {
             let Some(axis) = axes.iter_mut().find(|axis| axis.key == more.key) else {
@@ -243,7 +253,7 @@ impl<'a> Document<'a> {
     }
 
     /// The dotted keys of a table of arrays, in the order of the file.
-    fn arrays(&self, name: &str) -> Result<Vec<Axis<'a>>, ConfigError> {
+    fn arrays(&self, name: &str) -> Result<Vec<SweptKey<'a>>, ConfigError> {
         let Some(value) = self.root.get_ref().get(name) else { return Ok(Vec::new()) };
         let DeValue::Table(table) = value.get_ref() else {
             let place = self.sources.place(value.span());
@@ -256,7 +266,7 @@ impl<'a> Document<'a> {
             let (key, span) = (path.join("."), values.span());
             match values.get_ref().as_array() {
                 Some(array) if !array.is_empty() => {
-                    arrays.push(Axis { key, values: array.to_vec(), usual: array.len(), names: Vec::new(), span });
+                    arrays.push(SweptKey { key, values: array.to_vec(), usual: array.len(), names: Vec::new(), span });
                 }
                 _ => return Err(ConfigError::EmptySweep { place: self.sources.place(span), key }),
             }

@@ -4,14 +4,14 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::ConfigError;
-use super::document::{Axis, Document};
+use super::document::{Document, SweptKey};
 use crate::io::Format;
 
 /// What a folder of meshes stands for: a sweep over its files.
 const SWEPT: &str = "surface.source";
 
 /// `folder = "…"`: every mesh file in that folder (not in folders therein), by name, takes the place of the sources that are swept over.
-pub(super) fn sweep_over_folder<'a>(document: &Document<'a>, sweep: &mut Vec<Axis<'a>>) -> Result<(), ConfigError> {
+pub(super) fn sweep_over_folder<'a>(document: &Document<'a>, sweep: &mut Vec<SweptKey<'a>>) -> Result<(), ConfigError> {
     let Some(folder) = document.optional::<String>("folder")? else { return Ok(()) };
     let span = document.span("folder");
     let refused = |reason| ConfigError::Folder { place: document.place(span.clone()), folder: folder.clone(), reason };
@@ -25,7 +25,8 @@ pub(super) fn sweep_over_folder<'a>(document: &Document<'a>, sweep: &mut Vec<Axi
     }
     let usual = sources.len();
     let values = sources.into_iter().map(|source| Spanned::new(span.clone(), DeValue::String(source.into())));
-    let axis = Axis { key: SWEPT.to_owned(), values: values.collect(), usual, names: Vec::new(), span: span.clone() };
+    let axis =
+        SweptKey { key: SWEPT.to_owned(), values: values.collect(), usual, names: Vec::new(), span: span.clone() };
     match sweep.iter_mut().find(|axis| axis.key == SWEPT) {
         Some(swept) => *swept = axis,
         None => sweep.insert(0, axis),

@@ -4,7 +4,9 @@ use serde_json::{Value, json};
 use super::convergence::one_or_more;
 use super::picture::{Checkerboard, checkerboard_pair, flat_map, maps};
 use super::surface::SurfaceSpec;
-use super::{Caption, ConfigError, Convergence, Document, Kind, Mark, Marks, Picture, RunError, Task, Yield, trace};
+use super::{
+    Caption, ConfigError, Convergence, Document, ExperimentKind, Mark, Marks, Picture, RunError, Task, Yield, trace,
+};
 use crate::app::measure::stopwatch::Stopwatch;
 use crate::figure::Format;
 use crate::input::Input;
@@ -51,7 +53,7 @@ struct MapTask {
     figures: FigureSpec,
 }
 
-impl Kind for MapKind {
+impl ExperimentKind for MapKind {
     fn name(&self) -> &'static str {
         "map"
     }

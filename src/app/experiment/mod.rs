@@ -17,7 +17,7 @@
 //! | `batch.rs`, `pool.rs` | [`Batch`]: runs in parallel, or in processes of their own; resuming after an interruption |
 //! | `store.rs`, `provenance.rs` | scratch records → `records.jsonl`, `timings.jsonl`, `provenance.json`; removing stale records |
 //! | `page/` | everything → `index.html` |
-//! | `summary.rs`, `grid.rs`, `groups.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
+//! | `summary.rs`, `tables.rs`, `grid.rs`, `groups.rs`, `chart.rs` | records → `table.md`, `timings.md`, plots |
 //! | `fit.rs`, `panels.rs` | exponents fitted to the series of plots; plots beside each other |
 //! | `convergence.rs` | iterations as records keep them; the plots that `[figures] convergence` asks for |
 //! | `map.rs`, `cotan.rs`, `normals.rs`, `peer.rs`, `theorem.rs` | the kinds of experiment, rows of [`KINDS`] |
@@ -37,10 +37,10 @@ mod config;
 mod convergence;
 mod cotan;
 mod data;
-mod diagram;
 mod document;
 mod error;
 mod expect;
+mod explanation;
 mod files;
 mod fit;
 mod folder;
@@ -68,6 +68,7 @@ mod sheet;
 mod store;
 mod summary;
 mod surface;
+mod tables;
 mod theorem;
 mod without;
 
@@ -78,13 +79,13 @@ use serde_json::Value;
 pub use batch::{Batch, Event, Maker};
 pub use caption::{Caption, CaptionError};
 pub use chart::{AxisSpec, PlotSpec, ReferenceSpec, SeriesSpec};
-pub use config::{Column, Config, Run, Settings, check_figures};
+pub use config::{Column, Config, Run, check_figures};
 pub use convergence::{Convergence, ConvergenceX, ConvergenceY, trace};
 pub use data::{DataFile, Origin, data_folders};
-pub use diagram::DiagramError;
-pub use document::Document;
+pub use document::{Document, Settings};
 pub use error::{ConfigError, Place, ResultsError, RunError};
 pub use expect::{Bound, Bounds, Expectation};
+pub use explanation::DiagramError;
 pub use fit::{Abscissa, FitSpec, Fitted};
 pub use groups::{GroupColumn, GroupSpec, Take};
 pub use marks::{Mark, Marks, Measure};
@@ -101,13 +102,14 @@ pub use selection::Selection;
 pub use shard::{NoShard, Shard};
 pub use sheet::SheetSpec;
 pub use store::{records, remove_stale};
-pub use summary::{Summary, summarise, table};
+pub use summary::{Summary, summarise};
+pub use tables::table;
 pub use without::Without;
 
 use crate::figure::Format;
 
 /// A kind of experiment: what one run of it does.
-pub trait Kind: Sync {
+pub trait ExperimentKind: Sync {
     /// What a config says as `kind`.
     fn name(&self) -> &'static str;
     /// One line.
@@ -157,11 +159,11 @@ pub struct Picture {
 }
 
 /// Every kind of experiment; the first is the default.
-pub static KINDS: &[&dyn Kind] = &[
+pub static KINDS: &[&dyn ExperimentKind] = &[
     &map::MapKind,
     &cotan::CotanKind,
     &normals::NormalsKind,
     &peer::PeerKind,
-    &diagram::DiagramKind,
+    &explanation::DiagramKind,
     &theorem::TheoremKind,
 ];

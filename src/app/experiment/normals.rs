@@ -2,7 +2,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::surface::SurfaceSpec;
-use super::{ConfigError, Document, Kind, RunError, Task, Yield};
+use super::{ConfigError, Document, ExperimentKind, RunError, Task, Yield};
 use crate::app::measure::stopwatch::Stopwatch;
 use crate::geometry::vector::{cross, dot, norm};
 use crate::surface::edges::Edges;
@@ -24,7 +24,7 @@ struct NormalsTask {
     estimator: NormalSpec,
 }
 
-impl Kind for NormalsKind {
+impl ExperimentKind for NormalsKind {
     fn name(&self) -> &'static str {
         "normals"
     }

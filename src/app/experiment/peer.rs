@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::map::untimed;
 use super::surface::SurfaceSpec;
-use super::{ConfigError, Document, Kind, RunError, Task, Yield};
+use super::{ConfigError, Document, ExperimentKind, RunError, Task, Yield};
 use crate::app::compare::libigl::{Environment, Settings};
 use crate::app::compare::moebius_fit::fitted;
 use crate::app::compare::peer::{Moebius, PEERS, peer};
@@ -37,7 +37,7 @@ struct PeerTask {
     method: String,
 }
 
-impl Kind for PeerKind {
+impl ExperimentKind for PeerKind {
     fn name(&self) -> &'static str {
         "peer"
     }

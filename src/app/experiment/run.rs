@@ -12,7 +12,7 @@ use super::{Config, Outcome, Picture, Record, ResultsError, Run, RunError, Yield
 use crate::app::measure::process::{Bounds, End, watch};
 
 /// A run that has ended; nothing is written yet.
-pub(super) struct Ended {
+pub(super) struct EndedRun {
     pub(super) record: Record,
     pictures: Vec<Picture>,
     /// Wall-clock seconds that it took.
@@ -20,7 +20,7 @@ pub(super) struct Ended {
 }
 
 /// Makes a run. A failure leaves a record, and so does a panic: no run may end the others.
-pub(super) fn make(config: &Config, run: &Run) -> Ended {
+pub(super) fn make(config: &Config, run: &Run) -> EndedRun {
     let begun = Instant::now();
     // Nothing that a panicking task leaves half-done is looked at again.
     let ended = catch_unwind(AssertUnwindSafe(|| run.task.run()));
@@ -32,7 +32,7 @@ pub(super) fn make(config: &Config, run: &Run) -> Ended {
         record.versions.insert(format!("data:{}", data.name), version);
     }
     record.pictures = pictures.iter().map(|picture| picture_name(config, run, picture)).collect();
-    Ended { record, pictures, seconds }
+    EndedRun { record, pictures, seconds }
 }
 
 /// Makes the run at `position` and writes its scratch record and pictures: the work of the process that a
@@ -54,7 +54,7 @@ pub(super) fn make_apart(
     run: &Run,
     (limit, mut command): (f64, Command),
     stop: &dyn Fn() -> bool,
-) -> Result<Option<Ended>, ResultsError> {
+) -> Result<Option<EndedRun>, ResultsError> {
     // A record of an interrupted batch must not be taken for one of this process.
     scratch.remove(config, run)?;
     let bounds =
@@ -70,17 +70,17 @@ pub(super) fn make_apart(
         }),
     };
     let error = match left {
-        Ok(record) => return Ok(Some(Ended { record, pictures: Vec::new(), seconds })),
+        Ok(record) => return Ok(Some(EndedRun { record, pictures: Vec::new(), seconds })),
         Err(error) => error,
     };
     let (record, pictures) = record(config, run, Err(error));
-    let ended = Ended { record, pictures, seconds };
+    let ended = EndedRun { record, pictures, seconds };
     write(scratch, config, run, &ended)?;
     Ok(Some(ended))
 }
 
 /// Writes the scratch record of a run, after its pictures.
-pub(super) fn write(scratch: &Scratch, config: &Config, run: &Run, ended: &Ended) -> Result<(), ResultsError> {
+pub(super) fn write(scratch: &Scratch, config: &Config, run: &Run, ended: &EndedRun) -> Result<(), ResultsError> {
     for (name, picture) in ended.record.pictures.iter().zip(&ended.pictures) {
         write_figure(scratch.results(), name, &picture.bytes)?;
     }

@@ -1,11 +1,10 @@
-use std::collections::HashSet;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::files::{extension, lock, write_figure};
 use super::inside::inside;
 use super::store::records;
-use super::{Config, GroupSpec, Record, ResultsError, fit, grid, groups, without};
+use super::tables::{made, table};
+use super::{Config, GroupSpec, Record, ResultsError};
 use crate::figure::{FigureError, Format};
 use crate::io::atomically;
 
@@ -32,7 +31,7 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
     if records.is_empty() {
         return Ok(Summary { records, files: Vec::new() });
     }
-    let complete = there(config, &records) == config.runs.len();
+    let complete = made(config, &records) == config.runs.len();
     // What is in no record yet may be in those of other shards.
     if complete {
         check_keys(config, &records)?;
@@ -67,12 +66,6 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
     Ok(Summary { records, files })
 }
 
-/// How many of the runs that are to be made have a record.
-fn there(config: &Config, records: &[Record]) -> usize {
-    let made: HashSet<&str> = records.iter().map(|record| record.run.as_str()).collect();
-    config.runs.iter().filter(|run| made.contains(run.name.as_str())).count()
-}
-
 /// A misspelt key must not become an empty column or plot. Without a single result there is nothing to check against.
 fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
     let finished: Vec<&Record> = records.iter().filter(|record| !record.result.is_null()).collect();
@@ -91,34 +84,4 @@ fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
         }
     }
     Ok(())
-}
-
-/// The records as Markdown, and the exponents fitted to the series of plots; `timings`: what differs from run to run instead
-/// of the rest. `None` if there is nothing of that.
-pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<String> {
-    let grid = grid::of_records(config, records, timings);
-    let more: Vec<_> =
-        groups::grid(config, records, timings).into_iter().chain(fit::grids(config, records, timings)).collect();
-    if grid.is_none() && more.is_empty() {
-        return None;
-    }
-    let mut text = format!("# {}\n\n", config.title);
-    if !config.claim.is_empty() {
-        let _ = writeln!(text, "{}\n", config.claim);
-    }
-    if timings {
-        text.push_str("Measured on the machine that made these results; they differ from run to run.\n\n");
-    }
-    let there = there(config, records);
-    if there < config.runs.len() {
-        let _ = writeln!(text, "{there} of {} runs.\n", config.runs.len());
-    }
-    text.push_str(&grid.map(|grid| grid.markdown()).unwrap_or_default());
-    for sentence in without::sentences(&config.without) {
-        let _ = writeln!(text, "\n{sentence}");
-    }
-    for (title, grid) in more {
-        let _ = write!(text, "\n## {title}\n\n{}", grid.markdown());
-    }
-    Some(text)
 }

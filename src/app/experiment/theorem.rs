@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use serde_json::json;
 
 use super::surface::SurfaceSpec;
-use super::{ConfigError, Document, Kind, RunError, Task, Yield};
+use super::{ConfigError, Document, ExperimentKind, RunError, Task, Yield};
 use crate::laplacian::ConformalLaplacian;
 use crate::map::{self, Boundary, MapOptions, Valid};
 use crate::report::ErrorRecord;
@@ -19,7 +19,7 @@ struct TheoremTask {
     options: MapOptions,
 }
 
-impl Kind for TheoremKind {
+impl ExperimentKind for TheoremKind {
     fn name(&self) -> &'static str {
         "theorem"
     }

@@ -9,9 +9,9 @@ use super::highlight::highlight;
 use super::html::{address, escape, figure, folded, table};
 use super::is_figure;
 use crate::app::experiment::data::DataFile;
-use crate::app::experiment::grid::grids;
 use crate::app::experiment::sheet::panel;
 use crate::app::experiment::store::records;
+use crate::app::experiment::tables::grids;
 use crate::app::experiment::{Config, Outcome, Record, without};
 
 /// More pictures of single runs than these are folded.

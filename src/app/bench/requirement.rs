@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::record::{Outcome, Record};
+use super::record::{ContestOutcome, Record};
 
 /// What is measured.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ enum Bound {
     AtLeast(f64),
 }
 
-struct Bar {
+struct Requirement {
     what: &'static str,
     case: &'static str,
     /// `None`: the case is a file.
@@ -36,14 +36,20 @@ struct Bar {
 
 const MILLION: Option<usize> = Some(1_000_000);
 
-const fn bar(what: &'static str, case: &'static str, size: Option<usize>, measure: Measure, bound: Bound) -> Bar {
-    Bar { what, case, size, measure, bound }
+const fn bar(
+    what: &'static str,
+    case: &'static str,
+    size: Option<usize>,
+    measure: Measure,
+    bound: Bound,
+) -> Requirement {
+    Requirement { what, case, size, measure, bound }
 }
 
 use Bound::{AtLeast, AtMost};
 use Measure::{Growth, Peak, Ratio, Slowest, Whole};
 
-const BARS: &[Bar] = &[
+const BARS: &[Requirement] = &[
     bar(
         "circle map of 10⁶ quads over CHOLMOD's harmonic map",
         "grid",
@@ -122,7 +128,7 @@ pub fn verdicts(record: &Record) -> Vec<Verdict> {
     BARS.iter().map(|bar| bar.verdict(record)).collect()
 }
 
-impl Bar {
+impl Requirement {
     fn verdict(&self, record: &Record) -> Verdict {
         let (measured, at_most) = self.measure(record).map_or((None, false), |(value, at_most)| (Some(value), at_most));
         let (bound, holds) = match self.bound {
@@ -142,7 +148,7 @@ impl Bar {
             Ratio(ours, peer) => {
                 let entry = record.entry(self.case, self.size, peer)?;
                 match entry.outcome {
-                    Outcome::OverTheLimit { spent: Some(spent), .. } => (cpu(ours, self.size)? / spent, true),
+                    ContestOutcome::OverTheLimit { spent: Some(spent), .. } => (cpu(ours, self.size)? / spent, true),
                     _ => (cpu(ours, self.size)? / cpu(peer, self.size)?, false),
                 }
             }

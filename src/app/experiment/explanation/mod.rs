@@ -10,7 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::surface::SurfaceSpec;
-use super::{Caption, ConfigError, Document, Kind, Picture, RunError, Task, Yield};
+use super::{Caption, ConfigError, Document, ExperimentKind, Picture, RunError, Task, Yield};
 use crate::figure::{Colour, Diagram, Format, Item, LineStyle};
 use crate::input::Input;
 use crate::map::MapOptions;
@@ -47,18 +47,18 @@ struct Subject<'a> {
 type Drawn = (Diagram, Value);
 
 /// A diagram that can be asked for.
-struct Row {
+struct NamedDiagram {
     name: &'static str,
     draw: fn(&Subject) -> Result<Drawn, RunError>,
 }
 
 /// All diagrams.
-static DIAGRAMS: &[Row] = &[
-    Row { name: "dual-points", draw: dual_points::draw },
-    Row { name: "surfel", draw: surfel::draw },
-    Row { name: "cotan", draw: cotan::draw },
-    Row { name: "initial", draw: initial::draw },
-    Row { name: "two-circles", draw: two_circles::draw },
+static DIAGRAMS: &[NamedDiagram] = &[
+    NamedDiagram { name: "dual-points", draw: dual_points::draw },
+    NamedDiagram { name: "surfel", draw: surfel::draw },
+    NamedDiagram { name: "cotan", draw: cotan::draw },
+    NamedDiagram { name: "initial", draw: initial::draw },
+    NamedDiagram { name: "two-circles", draw: two_circles::draw },
 ];
 
 /// A surface that a diagram cannot be made of.
@@ -103,12 +103,12 @@ struct DiagramTask {
     surface: SurfaceSpec,
     options: MapOptions,
     spec: Spec,
-    row: &'static Row,
+    row: &'static NamedDiagram,
     /// For captions.
     config: Value,
 }
 
-impl Kind for DiagramKind {
+impl ExperimentKind for DiagramKind {
     fn name(&self) -> &'static str {
         "diagram"
     }
