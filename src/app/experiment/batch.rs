@@ -6,33 +6,34 @@ use super::scratch::Scratch;
 use super::store::merge;
 use super::{Config, Outcome, Record, ResultsError, Run, Shard, Summary, summarise};
 
-/// Experiments to be run together.
+/// A set of experiments that are run together.
 pub struct Batch<'a> {
-    /// In this order.
+    /// The experiments, in the order in which they are run.
     pub configs: &'a [Config],
-    /// Of each of them.
+    /// The shard of each experiment that is run.
     pub shard: Shard,
-    /// Runs made at the same time. What comes out does not depend on it.
+    /// Number of runs at the same time. Results do not depend on it.
     pub threads: NonZeroUsize,
-    /// How a run is made in a process of its own, where its config limits its time. Without, the limit does not hold.
+    /// Makes the command that runs an experiment with a time limit in a process of its own. Without
+    /// it, no limit holds.
     pub apart: Option<&'a Maker<'a>>,
-    /// The folder of results, with the records of runs that an interrupted batch of the same program has finished. These
-    /// runs are not made again.
+    /// The folder of results, with the records of runs that an interrupted batch of the same
+    /// program has finished. These runs are not made again.
     pub scratch: &'a Scratch,
 }
 
 /// The command that makes one run and writes its scratch record ([`make_one`](super::make_one)).
 pub type Maker<'a> = dyn Fn(&Config, &Run) -> std::process::Command + Sync + 'a;
 
-/// What a batch tells while it works.
+/// An event that a batch reports while it works.
 pub enum Event<'a> {
-    /// A run was finished before the interruption of a former batch.
+    /// A run was finished by an earlier batch that was interrupted.
     Finished {
         /// Its config.
         config: &'a Config,
         /// The run.
         run: &'a Run,
-        /// What it left behind.
+        /// Its record.
         record: &'a Record,
     },
     /// A run begins.
@@ -48,27 +49,27 @@ pub enum Event<'a> {
         config: &'a Config,
         /// The run.
         run: &'a Run,
-        /// What it left behind.
+        /// Its record.
         record: &'a Record,
-        /// Wall-clock seconds that it took.
+        /// Its wall-clock time in seconds.
         seconds: f64,
     },
-    /// The last run of a config has ended, and its records are summed up.
+    /// The last run of a config has ended, and its records are summarised.
     Summed {
         /// The config.
         config: &'a Config,
         /// Its table and plots, or why there are none.
         summary: Result<&'a Summary, &'a ResultsError>,
     },
-    /// Time passes.
+    /// A fifth of a second has passed, or all runs have ended.
     Pulse,
 }
 
-/// A run by the places of its config and of itself therein.
+/// The indices of a config and of a run in it.
 type Job = (usize, usize);
 
 impl Batch<'_> {
-    /// The runs of the shard whose data are there.
+    /// The runs of the shard whose data files exist.
     pub fn runs(&self) -> impl Iterator<Item = (&Config, &Run)> {
         self.jobs().into_iter().map(|job| self.of(job))
     }
@@ -85,9 +86,10 @@ impl Batch<'_> {
         (&self.configs[config], &self.configs[config].runs[run])
     }
 
-    /// Makes the runs, each with a record and pictures in `results`; those of configs that are to run alone come last and
-    /// one at a time. A config is summed up when its last run here has ended. Where `stop` says so, no more runs are begun,
-    /// and what fails from then on counts as not made: the Ctrl-C of a terminal reaches programs that a run calls, too.
+    /// Makes the runs and writes a record and pictures of each. Runs of configs with `alone = true`
+    /// come last and one at a time. A config is summarised when its last run in this batch has
+    /// ended. Once `stop` returns true, no run begins, and a run that fails counts as not made,
+    /// because a terminal sends Ctrl-C also to programs that a run has started.
     ///
     /// # Errors
     /// [`ResultsError`] where files cannot be written.
@@ -127,7 +129,7 @@ impl Batch<'_> {
         if unmade == 0 && unsummed == 0 { self.scratch.forget(self.configs, self.shard) } else { Ok(()) }
     }
 
-    /// What is to be made, after what is finished has been told.
+    /// The runs to be made, after the finished ones have been reported.
     fn unfinished(&self, watch: &mut dyn FnMut(Event)) -> Vec<Job> {
         let mut jobs = self.jobs();
         jobs.retain(|job| {
@@ -152,7 +154,8 @@ impl Batch<'_> {
         Ok(Some(ended))
     }
 
-    /// Whether it could be done. Nothing is made of nothing: data may not be here.
+    /// Merges and summarises the records of a config. Returns whether that succeeded; a config may
+    /// have no records if data files are missing.
     fn sum_up(&self, config: &Config, watch: &mut dyn FnMut(Event)) -> bool {
         let summary = merge(config, self.scratch).and_then(|()| summarise(config, self.scratch.results()));
         match &summary {

@@ -5,9 +5,10 @@ use super::RunError;
 use super::grid::number;
 use crate::figure::power_of_ten;
 
-/// A caption with places for what a run found: `{result.energy.total}` is the value at that dotted key, a number to four
-/// digits; `{result.distortion.quasi_conformal.max - 1}` how much it exceeds 1; `{+result.rho.im}` has its sign written apart;
-/// `{result.periods.tau.1}` the second part of an array. What stands in `[ ]` is left out where one of the keys in it has no value.
+/// A caption template. `{result.energy.total}` is replaced by the value at that dotted key, a
+/// number to four digits; `{result.distortion.quasi_conformal.max - 1}` how much it exceeds 1;
+/// `{+result.rho.im}` has its sign written apart; `{result.periods.tau.1}` is the second element of
+/// an array. Text in `[ ]` is left out if one of its keys has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Caption {
     parts: Vec<Part>,
@@ -22,13 +23,13 @@ enum Part {
     Optional(Vec<Part>),
 }
 
-/// Where a value stands.
+/// A key whose value is inserted.
 #[derive(Clone, Debug, PartialEq)]
 struct Place {
     key: String,
-    /// What is subtracted from it.
+    /// The number that is subtracted from the value.
     less: f64,
-    /// Whether its sign is written in any case, apart.
+    /// Whether the sign is always written, with spaces around it.
     signed: bool,
 }
 
@@ -87,10 +88,11 @@ impl Caption {
         Ok(Caption { parts })
     }
 
-    /// The caption of a run. `values` has what keys may begin with.
+    /// Fills in the caption of a run. `values` maps the first parts of keys to their values.
     ///
     /// # Errors
-    /// [`RunError::CaptionKey`]: a key that is not there; one that is there without a value may stand in brackets alone.
+    /// [`RunError::CaptionKey`]: a key that is not there; one that is there without a value may
+    /// stand in brackets alone.
     pub fn filled(&self, values: &Value) -> Result<String, RunError> {
         Ok(fill(&self.parts, values, true)?.unwrap_or_default())
     }
@@ -121,8 +123,8 @@ fn fill(parts: &[Part], values: &Value, required: bool) -> Result<Option<String>
     Ok(Some(text))
 }
 
-/// As in tables, but for what print can do better: powers of ten are raised, zeros stay where they say how far a number was
-/// rounded (1.000 is not 1), and the energy Lb is called L'.
+/// Formats a value as in tables, except that powers of ten are superscripts, zeros stay where they
+/// say how a number was rounded (1.000 is not 1), and the energy Lb is called L'.
 fn printed(value: &Value) -> String {
     let text = number(value);
     match value {
@@ -142,7 +144,7 @@ fn printed(value: &Value) -> String {
     }
 }
 
-/// The value at a dotted key; that of what has no value is none. Parts of arrays are numbered from 0.
+/// The value at a dotted key, or null. Elements of arrays are numbered from 0.
 fn lookup<'a>(values: &'a Value, key: &str) -> Result<&'a Value, RunError> {
     let mut value = values;
     for (i, name) in key.split('.').enumerate() {

@@ -10,22 +10,22 @@ use crate::figure::{Axis, Panels, Plot, Reference, Series};
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlotSpec {
-    /// Over the plot.
+    /// The title of the plot.
     #[serde(default)]
     pub title: String,
-    /// What goes right: `key` is the dotted key of the records.
+    /// The x axis; `key` is the dotted key of the records.
     pub x: AxisSpec,
-    /// What goes up; the keys are those of the series.
+    /// The y axis; the keys are those of the series.
     pub y: AxisSpec,
-    /// What is drawn.
+    /// The series that are drawn.
     pub series: Vec<SeriesSpec>,
-    /// Runs whose value at a dotted key is another are left out; of a list, any will do.
+    /// Only runs with these values at these dotted keys are drawn; a list allows any of its values.
     #[serde(default)]
     pub only: Selection,
-    /// Dashed lines to compare slopes with.
+    /// Dashed lines for the comparison of slopes.
     #[serde(default)]
     pub reference: Vec<ReferenceSpec>,
-    /// Small plots beside each other instead of one.
+    /// Several small plots side by side instead of one.
     #[serde(default)]
     pub panels: PanelSpec,
 }
@@ -34,15 +34,15 @@ pub struct PlotSpec {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AxisSpec {
-    /// Dotted key; for x only.
+    /// The dotted key, for the x axis only.
     pub key: Option<String>,
-    /// What stands beside it.
+    /// The label of the axis.
     pub label: String,
-    /// Whether it is logarithmic; values that are not positive are then left out.
+    /// Whether the axis is logarithmic; values that are not positive are then left out.
     #[serde(default)]
     pub log: bool,
-    /// For y only: the distance to the lowest value in the panel, E*, which its title then states. E* = 0 where the lowest
-    /// is as good as 0, below 10⁻⁸ of the highest.
+    /// For y only: the distance to the lowest value in the panel, E*, which its title then states.
+    /// E* = 0 where the lowest is as good as 0, below 10⁻⁸ of the highest.
     #[serde(default)]
     pub above_lowest: bool,
 }
@@ -51,19 +51,19 @@ pub struct AxisSpec {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeriesSpec {
-    /// Dotted key of what goes up.
+    /// The dotted key of the y values.
     pub y: String,
     /// Dotted key that tells series apart.
     pub by: Option<String>,
     /// Name in the legend; `{}` stands for the value of `by`.
     pub label: String,
-    /// As that of the plot, for this series alone.
+    /// Restricts this series as `only` restricts the plot.
     #[serde(default)]
     pub only: Selection,
-    /// Whether its points are not joined.
+    /// Whether the points are drawn without lines between them.
     #[serde(default)]
     pub cloud: bool,
-    /// The exponent that is fitted to it; both axes must be logarithmic.
+    /// The exponent that is fitted to the series; both axes must be logarithmic.
     pub fit: Option<FitSpec>,
 }
 
@@ -91,7 +91,7 @@ impl PlotSpec {
         self.keys().any(|key| key.starts_with("timings."))
     }
 
-    /// Why a plot of this name cannot be as it says.
+    /// The reason why a plot of this name is contradictory, if it is.
     pub(super) fn contradiction(&self, name: &str) -> Option<&'static str> {
         if self.series.iter().any(|series| series.fit.is_some()) && !(self.x.log && self.y.log) {
             return Some("`fit` is the exponent of a power law and needs both axes logarithmic (log = true)");
@@ -188,7 +188,7 @@ fn named(series: Series, fitted: Option<Fitted>) -> Series {
     }
 }
 
-/// What was taken away, as titles have it.
+/// The subtracted lowest value, as titles state it.
 fn lowered(series: &mut [Series]) -> String {
     let lowest = above_lowest(series);
     match lowest {

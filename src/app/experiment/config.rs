@@ -15,11 +15,11 @@ use super::{
     Without, convergence,
 };
 
-/// More runs than these in one config are taken for a mistake.
+/// The largest number of runs of one config.
 const MOST_RUNS: usize = 10_000;
-/// The top-level keys of every config that a single run has, too.
+/// The top-level keys that configs of every kind have and that belong to each run.
 const HEAD: [&str; 5] = ["title", "claim", "kind", "expect", "expect-where"];
-/// Those that are of all its runs together.
+/// The top-level keys that concern all runs of a config together.
 const OF_THE_WHOLE: [&str; 12] = [
     "alone",
     "folder",
@@ -54,7 +54,7 @@ struct Table {
 
 /// One point of the sweep.
 pub struct Run {
-    /// Its place among all runs of the config, from 0.
+    /// Its position among all runs of the config, from 0.
     pub position: usize,
     /// The swept values, such as `n=33,dual=barycentre`; `run` without a sweep.
     pub name: String,
@@ -62,38 +62,38 @@ pub struct Run {
     pub picture: String,
     /// The config as resolved.
     pub config: Value,
-    /// What the claim says of the result, by dotted key.
+    /// The bounds that the claim sets on the result, by dotted key.
     pub expect: Bounds,
-    /// The public file that it needs.
+    /// The public file that the run needs.
     pub data: Option<DataFile>,
-    /// What is to be done.
+    /// The computation.
     pub task: Box<dyn Task>,
 }
 
-/// A config, checked and made into runs.
+/// A checked config with its runs.
 pub struct Config {
-    /// The file's name without extension: that of its results.
+    /// The name of the file without extension, which is also the name of its results.
     pub name: String,
     /// Its path.
     pub path: String,
     /// Its title.
     pub title: String,
-    /// What it is to show.
+    /// The claim that the experiment tests.
     pub claim: String,
-    /// What one run does.
+    /// The kind of experiment.
     pub kind: &'static dyn ExperimentKind,
     /// Whether its runs are timed, so that nothing else may run beside them.
     pub alone: bool,
-    /// Seconds after which a run is ended; each is then made in a process of its own, where [`Batch::apart`](super::Batch::apart) says
-    /// how.
+    /// Time limit of a run in seconds. Each run is then made in a process of its own, if
+    /// [`Batch::apart`](super::Batch::apart) says how.
     pub time_limit: Option<f64>,
-    /// Whether it is a result, too, that a run fails of which nothing is claimed.
+    /// Whether runs without bounds may fail: their failure is then a result.
     pub may_fail: bool,
     /// The runs to be made: the last swept key varies fastest.
     pub runs: Vec<Run>,
-    /// Those of `[full]`, where they are not asked for.
+    /// The runs of `[full]`, if they are not to be made.
     pub more: Vec<Run>,
-    /// The dotted keys that are swept, in the order of the file.
+    /// The swept dotted keys, in the order of the file.
     pub swept: Vec<String>,
     /// Runs of the sweep that are not made.
     pub without: Vec<Without>,
@@ -103,12 +103,13 @@ pub struct Config {
     pub groups: Option<GroupSpec>,
     /// Plots over the runs, by name.
     pub plots: BTreeMap<String, PlotSpec>,
-    /// The figure that the pictures of all runs make, if they do.
+    /// The figure composed of the pictures of all runs, if there is one.
     pub sheet: Option<SheetSpec>,
 }
 
 impl Config {
-    /// Reads a config and applies settings of the form `dotted.key=value`; see [`Config::load_with`].
+    /// Reads a config and applies settings of the form `dotted.key=value`; see
+    /// [`Config::load_with`].
     ///
     /// # Errors
     /// As [`Config::load_with`].
@@ -119,7 +120,8 @@ impl Config {
     /// Reads a config with settings from outside.
     ///
     /// # Errors
-    /// [`ConfigError`]: whatever in the file or the settings is not understood, with its line.
+    /// [`ConfigError`] for anything in the file or the settings that is not understood, with its
+    /// line.
     pub fn load_with(path: &Path, settings: &Settings) -> Result<Self, ConfigError> {
         let text =
             std::fs::read_to_string(path).map_err(|source| ConfigError::Read { path: path.to_owned(), source })?;
@@ -222,7 +224,7 @@ impl Config {
         Ok(config)
     }
 
-    /// The runs of one shard, with their positions among those to be made.
+    /// The runs of one shard, with their indices among the runs to be made.
     pub fn shard(&self, shard: Shard) -> impl Iterator<Item = (usize, &Run)> {
         self.runs.iter().enumerate().filter(move |(i, _)| i % shard.count == shard.index - 1)
     }
@@ -249,7 +251,7 @@ impl Config {
         names
     }
 
-    /// All runs, to be made or not, in their order.
+    /// All runs in the order of the sweep, including those of `[full]` that are not to be made.
     pub fn all_runs(&self) -> Vec<&Run> {
         let mut runs: Vec<&Run> = self.runs.iter().chain(&self.more).collect();
         runs.sort_by_key(|run| run.position);
@@ -274,7 +276,8 @@ pub fn check_figures(configs: &[Config]) -> Result<(), ConfigError> {
 }
 
 impl Run {
-    /// The config without its bounds, as a text that two runs have in common exactly if they compute the same.
+    /// The config without its bounds, as a text that is equal for two runs if and only if their
+    /// configs are.
     fn effective(&self) -> String {
         let mut config = self.config.clone();
         if let Some(fields) = config.as_object_mut() {
@@ -283,7 +286,7 @@ impl Run {
         canonical(&config)
     }
 
-    /// Whether it is no wonder if the run fails: where nothing is claimed of it in an experiment whose runs may.
+    /// Whether the run may fail: the config allows it and sets no bounds on this run.
     pub fn may_fail(&self, config: &Config) -> bool {
         config.may_fail && self.expect.is_empty()
     }
@@ -312,17 +315,17 @@ fn run(
     Ok(Run { position, name: String::new(), picture: String::new(), config, expect, data, task })
 }
 
-/// A choice of one value per axis.
+/// A choice of one value per swept key.
 #[derive(Clone, Default)]
 struct Point<'s, 'a> {
     values: Vec<(&'s str, &'s Spanned<DeValue<'a>>)>,
-    /// The names that `[names]` gives to them.
+    /// The names that `[names]` gives to the values.
     names: Vec<Option<&'s str>>,
     /// Whether one of the values is of `[full]`.
     full: bool,
 }
 
-/// Every choice of one value per axis, the last axis fastest.
+/// All choices of one value per swept key; the last key varies fastest.
 fn product<'s, 'a>(axes: &'s [SweptKey<'a>]) -> Vec<Point<'s, 'a>> {
     let mut points = vec![Point::default()];
     for axis in axes {

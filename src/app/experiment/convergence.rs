@@ -1,4 +1,4 @@
-//! How minimisations converge: iterations as records keep them, and plots of them.
+//! Convergence of minimisations: the iterations in records, and plots of them.
 
 use std::fmt;
 
@@ -10,19 +10,20 @@ use serde_json::{Value, json};
 use super::{AxisSpec, ConfigError, Document, PanelSpec, PlotSpec, SeriesSpec};
 use crate::app::measure::stopwatch::Traced;
 
-/// `convergence` in `[figures]`: one plot over all runs, every run a curve. Panels and legend follow from the sweep: the
-/// solvers, or the last of the swept keys, stand in the legend, the last of the others beside each other, the rest below
-/// each other. Runs then have `result.trace` and `timings.trace`.
+/// `convergence` in `[figures]`: one plot over all runs, every run a curve. Panels and legend
+/// follow from the sweep: the solvers, or the last of the swept keys, stand in the legend, the last
+/// of the others beside each other, the rest below each other. Runs then have `result.trace` and
+/// `timings.trace`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Convergence {
-    /// What goes right.
+    /// The x axis.
     pub x: ConvergenceX,
-    /// What goes up.
+    /// The y axis.
     pub y: ConvergenceY,
 }
 
-/// How far a minimisation is; logarithmic, so that the start has no place.
+/// The progress of a minimisation. The axis is logarithmic, so that the start is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ConvergenceX {
@@ -32,7 +33,7 @@ pub enum ConvergenceX {
     Seconds,
 }
 
-/// How good it is; logarithmic.
+/// The quantity that converges, on a logarithmic axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ConvergenceY {
@@ -44,12 +45,13 @@ pub enum ConvergenceY {
     GradientNorm,
 }
 
-/// More iterations than these are thinned.
+/// The largest number of iterations that a record keeps.
 const MOST: usize = 150;
 
-/// The iterations as `result.trace` and `timings.trace` have them: arrays of one length, at most 150; of more iterations the
-/// first and the last, and those between evenly on a logarithmic axis. Stages count on. `total`, the energy of the finished
-/// map, is that of the last one: solvers sum it with other roundings.
+/// The iterations as `result.trace` and `timings.trace` have them: arrays of one length, at most
+/// 150; of more iterations the first and the last, and those between evenly on a logarithmic axis.
+/// Stages count on. `total`, the energy of the finished map, is that of the last one: solvers sum
+/// it with other roundings.
 pub fn trace(iterations: &[Traced], total: Option<f64>) -> (Value, Value) {
     let mut before = 0;
     let mut last = 0;
@@ -90,15 +92,15 @@ fn thinned(n: usize) -> Vec<usize> {
     kept
 }
 
-/// The part of `[figures]` that is about the runs together.
+/// The part of `[figures]` that concerns all runs together.
 #[derive(Deserialize)]
 struct Figures {
     #[serde(default, deserialize_with = "one_or_more")]
     convergence: Vec<Convergence>,
 }
 
-/// The plots that `[figures] convergence` asks for, with their names. `swept`: the keys of the sweep, and whether their values
-/// are words.
+/// The plots that `[figures] convergence` asks for, with their names. `swept`: the keys of the
+/// sweep, and whether their values are words.
 pub(super) fn plots(document: &Document, swept: &[(String, bool)]) -> Result<Vec<(String, PlotSpec)>, ConfigError> {
     let asked = document.optional::<Figures>("figures")?.map(|figures| figures.convergence).unwrap_or_default();
     Ok(asked.into_iter().map(|asked| (asked.name().to_owned(), asked.plot(swept))).collect())

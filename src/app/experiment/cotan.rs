@@ -9,7 +9,8 @@ use crate::app::compare::verify::{CotanMap, compare};
 use crate::app::measure::stopwatch::Stopwatch;
 use crate::map::{self, Boundary, MapOptions};
 
-/// System (2) with circumcentres against libigl's harmonic map of the same mesh with the same boundary.
+/// The kind of experiment that compares system (2) with circumcentres to libigl's harmonic map of
+/// the same mesh and boundary.
 pub(super) struct CotanKind;
 
 struct CotanTask {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-/// What a source begins with that names a public file.
+/// The prefix of a source that names a public file.
 const PREFIX: &str = "data:";
 /// The table of public files, as people read it.
 static TABLE: &str = include_str!("../../../experiments/data.md");
@@ -12,18 +12,18 @@ static TABLE: &str = include_str!("../../../experiments/data.md");
 /// Where a public file comes from: a row of `experiments/data.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// As experiments name it, after `data:`.
+    /// The name in experiments, after `data:`.
     pub name: &'static str,
     /// Owner and name on GitHub.
     pub repository: &'static str,
-    /// The file's path in there.
+    /// The path of the file in the repository.
     pub path: &'static str,
-    /// Of the file that the results were made with, hexadecimal.
+    /// SHA-256 of the file that the results were made with, hexadecimal.
     pub sha256: &'static str,
 }
 
 impl Origin {
-    /// All that are known.
+    /// All rows of the table.
     pub fn all() -> impl Iterator<Item = Origin> {
         TABLE.lines().filter_map(Origin::parse)
     }
@@ -36,8 +36,8 @@ impl Origin {
     }
 }
 
-/// Where public files are looked for: in the folder `named` alone if there is one (the variable `RIEMAP_DATA`), else in
-/// `../shared/data` and `data` of the working directory.
+/// The folders in which public files are looked up: only `named` if it is given (the variable
+/// `RIEMAP_DATA`), else `../shared/data` and `data` of the working directory.
 pub fn data_folders(named: Option<OsString>) -> Vec<PathBuf> {
     if let Some(folder) = named.filter(|name| !name.is_empty()) {
         return vec![folder.into()];
@@ -50,9 +50,9 @@ pub fn data_folders(named: Option<OsString>) -> Vec<PathBuf> {
 pub struct DataFile {
     /// Its name, after `data:`.
     pub name: String,
-    /// Where it is; `None` if it is in none of the folders.
+    /// Its path; `None` if it is in none of the folders.
     pub path: Option<PathBuf>,
-    /// Where it was looked for.
+    /// The folders in which it was looked up.
     pub folders: Vec<PathBuf>,
 }
 
@@ -69,7 +69,7 @@ impl DataFile {
         Origin::all().find(|origin| origin.name == self.name)
     }
 
-    /// `sha256:…` of the file at `path`, and whether that is another than the table's.
+    /// Returns `sha256:…` of the file at `path`, with a note if the table has another hash.
     pub(super) fn version(&self, path: &Path) -> std::io::Result<String> {
         let found = sha256(path)?;
         Ok(match self.origin().filter(|origin| origin.sha256 != found) {
@@ -79,7 +79,7 @@ impl DataFile {
     }
 }
 
-/// What to do about a file that is not there.
+/// Says where a missing file comes from and where to put it.
 impl fmt::Display for DataFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let folders: Vec<String> = self.folders.iter().map(|folder| folder.display().to_string()).collect();

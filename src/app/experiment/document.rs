@@ -6,32 +6,33 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
 
-use super::error::{ConfigError, Place};
+use super::error::ConfigError;
 use super::name::{is_plot_name, near};
+use super::place::Place;
 
-/// What is asked of configs from outside.
+/// The settings that a command applies to configs.
 #[derive(Clone, Debug, Default)]
 pub struct Settings {
-    /// Texts like `dotted.key=value`. One of a swept key takes the place of the sweep over it.
+    /// Texts like `dotted.key=value`. A value given to a swept key replaces the sweep over it.
     pub sets: Vec<String>,
-    /// Whether the runs that `[full]` adds are to be made.
+    /// Whether the runs of `[full]` are made.
     pub full: bool,
-    /// Where the files of `data:` sources are looked for, the first place first.
+    /// Folders in which the files of `data:` sources are looked up, in this order.
     pub data: Vec<PathBuf>,
 }
 
-/// The texts that a config is made of: the file, and every `--set`. They are numbered through, so that the span of a
-/// value tells which of them it came from.
+/// The texts of a config: the file and every `--set`. Their bytes are numbered consecutively, so
+/// that the span of a value tells which of them it came from.
 #[derive(Clone, Debug)]
 pub(super) struct Sources {
     /// Name, text, and first byte in the common numbering.
     texts: Vec<(String, String, usize)>,
-    /// Where public files are looked for.
+    /// Folders in which public files are looked up.
     data: Vec<PathBuf>,
 }
 
 impl Sources {
-    /// A file and texts like `key=value`, each made TOML: a value that is none becomes a string.
+    /// Joins a file and texts like `key=value`. A value that is not TOML becomes a string.
     pub(super) fn new(file: &str, text: String, settings: &Settings) -> Result<Self, ConfigError> {
         let mut start = text.len() + 1;
         let mut texts = vec![(file.to_owned(), text, 0)];
@@ -53,7 +54,7 @@ impl Sources {
         Ok(Sources { texts, data: settings.data.clone() })
     }
 
-    /// The file as a tree, with the `--set` values put in, and the dotted keys of these.
+    /// Parses the file, applies the `--set` values, and returns their dotted keys too.
     pub(super) fn tree(&self) -> Result<(Document<'_>, Vec<String>), ConfigError> {
         let mut trees = Vec::new();
         for (_, text, _) in &self.texts {
@@ -108,18 +109,18 @@ impl Sources {
 
 /// A swept key.
 pub(super) struct SweptKey<'a> {
-    /// Dotted.
+    /// The dotted key.
     pub(super) key: String,
-    /// Those of `[sweep]`, then those of `[full]`.
+    /// The values of `[sweep]`, then those of `[full]`.
     pub(super) values: Vec<Spanned<DeValue<'a>>>,
-    /// How many are of `[sweep]`.
+    /// The number of values of `[sweep]`.
     pub(super) usual: usize,
     /// The names that `[names]` gives to the values; empty where it gives none.
     pub(super) names: Vec<String>,
     pub(super) span: Range<usize>,
 }
 
-/// A config as a tree of TOML values that know where they stand.
+/// A config as a tree of TOML values with their places in the text.
 #[derive(Clone, Debug)]
 pub struct Document<'a> {
     sources: &'a Sources,
@@ -170,15 +171,16 @@ impl<'a> Document<'a> {
         Err(ConfigError::UnknownName { place, what, name: name.to_owned(), known: known.join(", ") })
     }
 
-    /// Fails at the first top-level key that is not one of `known`.
+    /// Fails if a top-level key is not one of `known`.
     pub(super) fn check_keys(&self, known: &[&str]) -> Result<(), ConfigError> {
         let unknown = self.root.get_ref().keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
         Err(self.unknown_key(key.span(), key.get_ref(), key.get_ref(), known))
     }
 
-    /// Fails unless the first part of a swept key is one of `known`: a table that no experiment of this kind reads would be
-    /// set in vain, and its runs would differ in their names alone.
+    /// Fails unless the first part of a swept key is one of `known`. A table that this kind of
+    /// experiment does not read would have no effect, and the runs would differ in their names
+    /// only.
     pub(super) fn check_axis(&self, axis: &SweptKey, known: &[&str]) -> Result<(), ConfigError> {
         let first = axis.key.split('.').next().unwrap_or(&axis.key);
         if known.contains(&first) {
@@ -193,7 +195,7 @@ impl<'a> Document<'a> {
         ConfigError::UnknownKey { place: self.place(span), key: key.to_owned(), meant, known: known.join(", ") }
     }
 
-    /// The error of the plot of that name.
+    /// The error of the plot called `name`.
     pub(super) fn wrong_plot(&self, name: &str, reason: &'static str) -> ConfigError {
         let plot = self.root.get_ref().get("plots").and_then(|plots| plots.get_ref().as_table()?.get(name));
         ConfigError::Plot { place: self.sources.place(plot.map_or(0..0, Spanned::span)), plot: name.to_owned(), reason }
@@ -208,7 +210,7 @@ impl<'a> Document<'a> {
         ConfigError::NotSwept { place, table, key: key.to_owned(), known: swept.join(", ") }
     }
 
-    /// `time-limit`, in seconds.
+    /// The value of `time-limit`, in seconds.
     pub(super) fn time_limit(&self) -> Result<Option<f64>, ConfigError> {
         let limit = self.optional::<f64>("time-limit")?;
         match limit.filter(|seconds| !(*seconds > 0.0 && seconds.is_finite())) {
@@ -217,7 +219,7 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// The swept keys in the order of the file, each with its values.
+    /// The swept keys with their values, in the order of the file.
     pub(super) fn sweep(&self) -> Result<Vec<SweptKey<'a>>, ConfigError> {
         let mut axes = self.arrays("sweep")?;
         for more in self.arrays("full")? {
@@ -274,12 +276,12 @@ impl<'a> Document<'a> {
         Ok(arrays)
     }
 
-    /// Where the files of `data:` sources are looked for.
+    /// The folders in which the files of `data:` sources are looked up.
     pub fn data_folders(&self) -> &[PathBuf] {
         &self.sources.data
     }
 
-    /// Puts `value` at the dotted key whose parts are `path`, making the tables that lead there.
+    /// Assigns `value` to the dotted key with the parts `path`, creating missing tables.
     pub(super) fn assign<S: AsRef<str>>(&mut self, path: &[S], value: Spanned<DeValue<'a>>) -> Result<(), ConfigError> {
         let span = value.span();
         let names: Vec<&str> = path.iter().map(S::as_ref).collect();
@@ -313,12 +315,12 @@ impl<'a> Document<'a> {
         self.sources.file()
     }
 
-    /// Where the value of a dotted key stands.
+    /// The place of the value of a dotted key.
     pub(super) fn span(&self, key: &str) -> Range<usize> {
         self.find(key).map_or(0..0, Spanned::span)
     }
 
-    /// A span as errors show it.
+    /// The source, line and text of a span, for error messages.
     pub(super) fn place(&self, span: Range<usize>) -> Box<Place> {
         self.sources.place(span)
     }
@@ -332,8 +334,9 @@ impl<'a> Document<'a> {
         Some(value)
     }
 
-    /// The place of an error about the table `name` that has no span of its own, such as options that contradict each other:
-    /// the first key of the table that the message quotes, or the table.
+    /// The place of an error about the table `name` that has no span of its own, such as options
+    /// that contradict each other: the first key of the table that the message quotes, or the
+    /// table.
     fn quoted(&self, name: &str, message: &str) -> Range<usize> {
         let value = self.root.get_ref().get(name);
         let keys = value.and_then(|value| value.get_ref().as_table()).into_iter().flat_map(|table| table.keys());
@@ -349,7 +352,8 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Everything in `table` that is no table itself, or an empty one, with the names that lead there.
+/// The values in `table`, nested ones included, that are not tables or are empty tables, each with
+/// its path.
 fn leaves<'a>(table: &DeTable<'a>, path: &[String]) -> Vec<(Vec<String>, Spanned<DeValue<'a>>)> {
     let mut found = Vec::new();
     for (name, value) in table.iter() {

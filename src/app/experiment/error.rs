@@ -1,8 +1,8 @@
-use std::fmt;
 use std::path::PathBuf;
 
 use super::DataFile;
 use super::DiagramError;
+use super::place::Place;
 use crate::app::compare::libigl::LibiglError;
 use crate::app::compare::moebius_fit::Undetermined;
 use crate::app::compare::peer::{MoebiusError, PeerError};
@@ -13,57 +13,24 @@ use crate::io::WriteError;
 use crate::map::MapError;
 use crate::surface::normals::NormalError;
 
-/// Where in a config, or in which `--set`, something stands.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Path of the config; `--set key=value`.
-    pub source: String,
-    /// Line, from 1; `None` for what was given with `--set`.
-    pub line: Option<usize>,
-    /// The text of that line.
-    pub text: String,
-    /// First character of the offender in `text`, from 0.
-    pub column: usize,
-    /// Its length in characters; at least 1.
-    pub width: usize,
-}
-
-/// `file:line`.
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            Some(line) => write!(f, "{}:{line}", self.source),
-            None => f.write_str(&self.source),
-        }
-    }
-}
-
-impl Place {
-    /// The line with carets below the offender.
-    fn excerpt(&self) -> String {
-        let number = self.line.map(|line| line.to_string()).unwrap_or_default();
-        let (gutter, shift) = (number.len(), self.column);
-        format!("{number} | {}\n{:gutter$} | {:shift$}{}", self.text, "", "", "^".repeat(self.width))
-    }
-}
-
-/// A config that cannot be taken as it stands.
+/// An error in a config.
 #[derive(Debug, thiserror::Error)]
 pub enum ConfigError {
-    /// The file is not to be had.
+    /// The file cannot be read.
     #[error("{}: the config cannot be read", path.display())]
     Read {
         /// Its path.
         path: PathBuf,
-        /// The system's word.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// No TOML, an unknown key, a value of the wrong type, an unknown name: as the TOML reader says it.
+    /// Invalid TOML, an unknown key, a value of the wrong type or an unknown name, as reported by
+    /// the TOML reader.
     #[error("{place}: {}{message}\n{}", swept.as_ref().map(|key| format!("`{key}`: ")).unwrap_or_default(), place.excerpt())]
     Toml {
         /// Where.
         place: Box<Place>,
-        /// What is wrong, and what is known.
+        /// The message of the TOML reader.
         message: String,
         /// The key, where a sweep or `--set` gave the value.
         swept: Option<String>,
@@ -75,9 +42,9 @@ pub enum ConfigError {
         place: Box<Place>,
         /// The key.
         key: String,
-        /// The key of a near name, if there is one.
+        /// The key with the most similar name, if one is similar.
         meant: Option<String>,
-        /// The keys there are.
+        /// The known keys.
         known: String,
     },
     /// Two points of the sweep that compute the same: one of the swept values has no effect.
@@ -90,46 +57,46 @@ pub enum ConfigError {
         /// Name of the later run.
         second: String,
     },
-    /// A value that is none of the names it could be.
+    /// A value that is not one of the known names.
     #[error("{place}: unknown {what} `{name}`; known: {known}\n{}", place.excerpt())]
     UnknownName {
         /// Where.
         place: Box<Place>,
-        /// What it names.
+        /// The kind of thing that it names.
         what: &'static str,
         /// The name.
         name: String,
-        /// The names there are.
+        /// The known names.
         known: String,
     },
-    /// A plot that contradicts itself.
+    /// A contradictory plot.
     #[error("{place}: plot `{plot}`: {reason}\n{}", place.excerpt())]
     Plot {
         /// Where.
         place: Box<Place>,
         /// Its name.
         plot: String,
-        /// How.
+        /// The contradiction.
         reason: &'static str,
     },
-    /// A table that the kind needs.
+    /// A missing table that the kind of experiment requires.
     #[error("{source_name}: the table [{table}] is missing or incomplete: {message}")]
     Missing {
         /// Path of the config.
         source_name: String,
         /// Name of the table.
         table: String,
-        /// What the TOML reader misses in it.
+        /// The message of the TOML reader.
         message: String,
     },
-    /// A dotted key that leads through something that is no table.
+    /// A dotted key that leads through a value that is not a table.
     #[error("{place}: `{key}` cannot be set: `{at}` is no table\n{}", place.excerpt())]
     NoTable {
         /// Where.
         place: Box<Place>,
         /// The dotted key.
         key: String,
-        /// The part that is no table.
+        /// The part that is not a table.
         at: String,
     },
     /// A swept key without values.
@@ -140,12 +107,13 @@ pub enum ConfigError {
         /// The dotted key.
         key: String,
     },
-    /// A key of `[full]`, `[names]`, `[[without]]` or `[[expect-where]]` that `[sweep]` does not have.
+    /// A key of `[full]`, `[names]`, `[[without]]` or `[[expect-where]]` that `[sweep]` does not
+    /// have.
     #[error("{place}: `{key}` of {table} is not swept; [sweep] has: {known}\n{}", place.excerpt())]
     NotSwept {
         /// Where.
         place: Box<Place>,
-        /// Whose key it is.
+        /// The table of the key.
         table: String,
         /// The dotted key.
         key: String,
@@ -172,7 +140,7 @@ pub enum ConfigError {
         /// Path of another config, or of the same.
         second: String,
     },
-    /// A folder of meshes that is none.
+    /// A folder without meshes, or one that cannot be read.
     #[error("{place}: folder {folder}: {reason}\n{}", place.excerpt())]
     Folder {
         /// Where.
@@ -182,7 +150,7 @@ pub enum ConfigError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A limit that is no time.
+    /// A time limit that is not a positive number.
     #[error("{place}: time-limit = {seconds}: it needs a number of seconds above 0\n{}", place.excerpt())]
     TimeLimit {
         /// Where.
@@ -190,18 +158,18 @@ pub enum ConfigError {
         /// The number.
         seconds: f64,
     },
-    /// A cartesian product out of hand.
+    /// A sweep with too many runs.
     #[error("{source_name}: the sweep makes more than {limit} runs")]
     TooManyRuns {
         /// Path of the config.
         source_name: String,
-        /// How many are allowed.
+        /// The largest number allowed.
         limit: usize,
     },
-    /// No `key=value`.
+    /// An argument of `--set` that is not `key=value`.
     #[error("--set {text}: expected key=value, for example --set map.dual=circumcentre")]
     Set {
-        /// What was given.
+        /// The argument.
         text: String,
     },
     /// A file name that cannot name a folder of results.
@@ -217,42 +185,42 @@ fn did_you_mean(meant: &Option<String>) -> String {
     meant.as_ref().map(|key| format!(", did you mean `{key}`?")).unwrap_or_default()
 }
 
-/// A run that ended without a result; its text goes into the record.
+/// An error that ended a run without a result. Its text goes into the record.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// A public file that is not there.
+    /// A missing public file.
     #[error("{file}")]
     NoData {
         /// The file.
         file: DataFile,
     },
-    /// A mistake of the program.
+    /// A panic, which is a bug of the program.
     #[error("riemap panicked, which it must never do; please report this: {message}")]
     Panic {
-        /// What it said.
+        /// The message of the panic.
         message: String,
     },
-    /// A run in a process of its own that took too long.
+    /// A run in a process of its own that exceeded the time limit.
     #[error("over the time limit of {seconds} s")]
     OverTime {
-        /// The limit.
+        /// The limit in seconds.
         seconds: f64,
     },
-    /// A process that ended without a record: out of memory, say.
+    /// A process that ended without a record, for example because memory was exhausted.
     #[error("the process of the run ended without a record, {status}{}{said}", if said.is_empty() { "" } else { ": " })]
     Process {
-        /// How.
+        /// The contradiction.
         status: String,
-        /// The last that it said.
+        /// The last line of its error output.
         said: String,
     },
-    /// No surface.
+    /// The surface cannot be read or generated.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// No map.
+    /// The map cannot be computed.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// No estimate of the normals.
+    /// The normals cannot be estimated.
     #[error(transparent)]
     Normals(#[from] NormalError),
     /// Normals of a surface whose exact ones are not known.
@@ -261,68 +229,68 @@ pub enum RunError {
         /// The surface.
         source_name: String,
     },
-    /// No comparison.
+    /// The comparison with libigl failed.
     #[error(transparent)]
     Verify(#[from] VerifyError),
-    /// No map of a peer.
+    /// A peer could not compute its map.
     #[error(transparent)]
     Peer(#[from] PeerError),
-    /// A map that cannot be laid over the exact one.
+    /// A map that cannot be aligned with the exact one.
     #[error(transparent)]
     Moebius(#[from] MoebiusError),
-    /// No Möbius map fits a peer's map to the exact one.
+    /// No Möbius map fits the map of a peer to the exact one.
     #[error(transparent)]
     Fit(#[from] Undetermined),
-    /// No libigl.
+    /// libigl is not available.
     #[error(transparent)]
     Libigl(#[from] LibiglError),
-    /// No diagram.
+    /// The diagram cannot be drawn.
     #[error(transparent)]
     Diagram(#[from] DiagramError),
-    /// No picture.
+    /// The picture cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// A caption asks for what is not there.
+    /// A caption refers to a key that does not exist.
     #[error("the caption has {{{key}}}, but there is no such key; known in `{at}`: {known}")]
     CaptionKey {
         /// The dotted key.
         key: String,
-        /// The part of it that is there.
+        /// The part of it that exists.
         at: String,
-        /// The keys there.
+        /// The keys below that part.
         known: String,
     },
-    /// A caption asks for what this map does not have.
+    /// A caption refers to a key without a value outside of brackets.
     #[error("the caption has {{{key}}}, which has no value here; in [ ] it would be left out")]
     CaptionValue {
         /// The dotted key.
         key: String,
     },
-    /// A result that is no JSON.
+    /// A result that cannot be encoded as JSON.
     #[error("the result cannot be written as JSON")]
     Json(#[from] serde_json::Error),
 }
 
-/// Results that cannot be written or summed up.
+/// An error in writing or summarising results.
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
-    /// A run that was to be made in a process of its own.
+    /// The process of a run cannot be started.
     #[error("the process of a run cannot be started")]
     Process(#[source] std::io::Error),
-    /// No such run.
+    /// The config has no run at this position.
     #[error("{config} has no run {position}")]
     NoRun {
         /// Path of the config.
         config: String,
-        /// The place among its runs, from 0.
+        /// The position among its runs, from 0.
         position: usize,
     },
-    /// No folder.
+    /// A folder cannot be created.
     #[error("{}: the folder cannot be made", path.display())]
     Folder {
         /// Its path.
         path: PathBuf,
-        /// The system's word.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// A path that a link leads out of the folder of results.
@@ -333,12 +301,12 @@ pub enum ResultsError {
         /// The folder of results.
         results: PathBuf,
     },
-    /// A file of former results that does not go away.
+    /// A file of earlier results cannot be removed.
     #[error("{}: the file cannot be removed", path.display())]
     Remove {
         /// Its path.
         path: PathBuf,
-        /// The system's word.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// A line of `records.jsonl` that is no record.
@@ -351,16 +319,17 @@ pub enum ResultsError {
         /// The error of the JSON reader.
         source: serde_json::Error,
     },
-    /// The executable of the running program cannot be read, so that its scratch records have no name.
+    /// The executable of the running program cannot be read, so that its scratch records have no
+    /// name.
     #[error("the program cannot read its own executable")]
     Program(#[source] std::io::Error),
-    /// No thread to run an experiment on.
+    /// A thread cannot be started.
     #[error("no thread can be started")]
     Thread(#[from] std::io::Error),
-    /// No file.
+    /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A record that cannot be encoded.
+    /// A record cannot be encoded as JSON.
     #[error("a record cannot be written as JSON")]
     Json(#[from] serde_json::Error),
     /// A key in `[table]`, `[plots]` or `[expect]` that no record has.
@@ -370,17 +339,17 @@ pub enum ResultsError {
         config: String,
         /// The dotted key.
         key: String,
-        /// Where it stands.
+        /// The table that refers to it.
         table: String,
         /// The keys that records have.
         known: String,
     },
-    /// A picture of a run that is there no more.
+    /// A picture of a run cannot be read.
     #[error("{}: the picture cannot be read", path.display())]
     Panel {
         /// Its path.
         path: PathBuf,
-        /// The system's word.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// A sheet that cannot be made.
@@ -388,7 +357,7 @@ pub enum ResultsError {
     Sheet {
         /// Path of the config.
         config: String,
-        /// Why.
+        /// The cause.
         source: FigureError,
     },
     /// A plot that cannot be drawn.
@@ -398,7 +367,7 @@ pub enum ResultsError {
         config: String,
         /// Its name.
         plot: String,
-        /// Why.
+        /// The cause.
         source: FigureError,
     },
 }

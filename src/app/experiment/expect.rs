@@ -5,20 +5,22 @@ use serde_json::Value;
 
 use super::Selection;
 
-/// `[expect]`: what the claim says of every result, by dotted key.
+/// `[expect]`: the bounds that the claim sets on every result, by dotted key.
 pub type Bounds = BTreeMap<String, Bound>;
 
-/// `[[expect-where]]`: what the claim says of the results of some runs, in place of what `[expect]` says of the same keys.
+/// `[[expect-where]]`: bounds on the results of some runs, which replace the bounds of `[expect]`
+/// on the same keys.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
-    /// By swept keys.
+    /// The runs, by swept keys.
     pub runs: Selection,
-    /// By dotted key of the record.
+    /// The bounds, by dotted key of the record.
     pub bounds: Bounds,
 }
 
-/// Puts what `[[expect-where]]` says of this run into `expect` of its resolved config; the bounds.
+/// Adds the bounds of `[[expect-where]]` on this run to `expect` of its resolved config and returns
+/// them.
 pub(super) fn resolve(config: &mut Value, expectations: &[Expectation]) -> Bounds {
     let chosen: Vec<bool> = expectations.iter().map(|some| some.runs.holds_config(config)).collect();
     let written = config.as_object_mut().and_then(|config| config.remove("expect-where"));
@@ -35,7 +37,7 @@ pub(super) fn resolve(config: &mut Value, expectations: &[Expectation]) -> Bound
     bounds.map(|(key, bound)| (key.clone(), bound.clone())).collect()
 }
 
-/// What a claim says of one number or word of the result.
+/// A bound on one number or word of the result.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bound {
@@ -48,7 +50,7 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// Why `value` is not as claimed; `None` if it is.
+    /// Says how `value` violates the bound; `None` if it does not.
     pub fn violation(&self, value: &Value) -> Option<String> {
         if let Some(wanted) = self.equal.as_ref().filter(|wanted| *wanted != value) {
             return Some(format!("is {value}, expected {wanted}"));

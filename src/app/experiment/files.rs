@@ -53,7 +53,8 @@ pub(super) fn remove_pictures<'n>(
     Ok(())
 }
 
-/// Locks a folder against other processes until the file is dropped; `None` where the system has no such locks.
+/// Locks a folder against other processes until the file is dropped; `None` where the system has no
+/// such locks.
 pub(super) fn lock(folder: &Path) -> Option<File> {
     File::open(folder).and_then(|folder| folder.lock().map(|()| folder)).ok()
 }

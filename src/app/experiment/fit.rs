@@ -9,19 +9,19 @@ use serde::{Deserialize, Deserializer};
 use super::grid::Grid;
 use super::{Config, Record};
 
-/// `fit` of a series: the exponent of a power law through its last points, least squares over the logarithms of both
-/// coordinates. It stands in the legend, and below the table of the experiment.
+/// `fit` of a series: the exponent of a power law through its last points, least squares over the
+/// logarithms of both coordinates. It stands in the legend, and below the table of the experiment.
 ///
 /// `fit = "cells"`, or `fit = { x = "cells", last = 4 }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FitSpec {
-    /// What x is.
+    /// The meaning of x.
     pub x: Abscissa,
-    /// How many points count; 3 unless given.
+    /// The number of points, 3 by default.
     pub last: usize,
 }
 
-/// What x is: which end of the axis is the asymptotic one, and whose power is meant.
+/// The meaning of x, which decides the asymptotic end of the axis and the sign of the exponent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Abscissa {
@@ -33,19 +33,19 @@ pub enum Abscissa {
     Size,
 }
 
-/// What was fitted to a series.
+/// An exponent fitted to a series.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fitted {
-    /// p.
+    /// The exponent p.
     pub exponent: f64,
-    /// How many points it comes from, at least 2.
+    /// The number of points, at least 2.
     pub points: usize,
-    /// What x is.
+    /// The meaning of x.
     pub x: Abscissa,
 }
 
 impl Abscissa {
-    /// What p is called.
+    /// The name of the exponent.
     pub fn name(self) -> &'static str {
         match self {
             Abscissa::Cells | Abscissa::Width => "order",
@@ -55,7 +55,8 @@ impl Abscissa {
 }
 
 impl FitSpec {
-    /// The fit to `points`, of those with two positive coordinates; `None` where fewer than two places are left.
+    /// The fit to `points`, of those with two positive coordinates; `None` where fewer than two
+    /// places are left.
     pub fn fit(self, points: &[[f64; 2]]) -> Option<Fitted> {
         let usable = |p: &&[f64; 2]| p.iter().all(|c| *c > 0.0 && c.is_finite());
         let mut logs: Vec<[f64; 2]> = points.iter().filter(usable).map(|p| p.map(f64::ln)).collect();
@@ -77,15 +78,15 @@ impl FitSpec {
     }
 }
 
-/// As in a legend: `order 1.97`.
+/// Formats the fit as in a legend: `order 1.97`.
 impl fmt::Display for Fitted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}", self.x.name(), format!("{:.2}", self.exponent).replace('-', "−"))
     }
 }
 
-/// The exponents of all plots, titled, a table for each plot that asks for some; `timings`: of plots of times instead of
-/// the others.
+/// The titled tables of fitted exponents, one for each plot with fits. With `timings`, those of
+/// plots of times instead of the others.
 pub(super) fn grids(config: &Config, records: &[Record], timings: bool) -> Vec<(String, Grid)> {
     let mut grids = Vec::new();
     for (name, plot) in config.plots.iter().filter(|(_, plot)| plot.is_of_timings() == timings) {

@@ -7,10 +7,11 @@ use super::ConfigError;
 use super::document::{Document, SweptKey};
 use crate::io::Format;
 
-/// What a folder of meshes stands for: a sweep over its files.
+/// The swept key that a folder of meshes sets.
 const SWEPT: &str = "surface.source";
 
-/// `folder = "…"`: every mesh file in that folder (not in folders therein), by name, takes the place of the sources that are swept over.
+/// `folder = "…"`: sweeps over the mesh files of that folder, sorted by name, instead of the given
+/// sources. Subfolders are not read.
 pub(super) fn sweep_over_folder<'a>(document: &Document<'a>, sweep: &mut Vec<SweptKey<'a>>) -> Result<(), ConfigError> {
     let Some(folder) = document.optional::<String>("folder")? else { return Ok(()) };
     let span = document.span("folder");

@@ -5,14 +5,14 @@ use serde_json::Value;
 /// A table: cells of text, row by row.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Grid {
-    /// Over the columns.
+    /// The headings of the columns.
     pub headings: Vec<String>,
-    /// As many cells each as there are headings.
+    /// The rows; each has as many cells as there are headings.
     pub rows: Vec<Vec<String>>,
 }
 
 impl Grid {
-    /// As Markdown, numbers to the right.
+    /// Formats the table as Markdown, aligned to the right.
     pub fn markdown(&self) -> String {
         let mut text = format!("| {} |\n|{}\n", self.headings.join(" | "), " --: |".repeat(self.headings.len()));
         for row in &self.rows {
@@ -23,7 +23,7 @@ impl Grid {
     }
 }
 
-/// Numbers to four digits, tables as `R = 5, r = 1.75`, everything else as it is.
+/// Formats a value: numbers to four digits, tables as `R = 5, r = 1.75`, everything else unchanged.
 pub(super) fn number(value: &Value) -> String {
     match value {
         Value::Null => "–".to_owned(),

@@ -9,25 +9,25 @@ use crate::app::measure::median::median;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GroupSpec {
-    /// Dotted keys that tell groups apart.
+    /// Dotted keys whose values define the groups.
     pub by: Vec<String>,
-    /// What is told of each group.
+    /// The columns of the table.
     pub columns: Vec<GroupColumn>,
 }
 
-/// A column of it.
+/// A column of the table of groups.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GroupColumn {
     /// Dotted key of the records.
     pub key: String,
-    /// What of its values.
+    /// The statistic of the values.
     pub take: Take,
     /// Heading.
     pub label: String,
 }
 
-/// What is taken of the values that a group has at a key. Runs without a number there do not count.
+/// A statistic of the values at a key in a group. Runs without a number there do not count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Take {
@@ -37,7 +37,7 @@ pub enum Take {
     Median,
     /// The largest.
     Max,
-    /// How many are true, of all runs of the group: `5 of 6`.
+    /// The number of runs in which the value is true, such as `5 of 6`.
     Count,
 }
 
@@ -65,8 +65,8 @@ impl GroupSpec {
         self.by.iter().chain(self.columns.iter().map(|column| &column.key))
     }
 
-    /// The groups in the order of their first runs; `timings`: the columns that differ from run to run instead of the others. `None`
-    /// if there are none of these.
+    /// The table of the groups, in the order of their first runs. With `timings`, the columns that
+    /// differ from run to run instead of the others. `None` if there are none of these.
     fn grid(&self, records: &[Record], timings: bool) -> Option<Grid> {
         let columns: Vec<&GroupColumn> =
             self.columns.iter().filter(|column| column.key.starts_with("timings.") == timings).collect();

@@ -2,8 +2,9 @@ use std::path::{Component, Path, PathBuf};
 
 use super::ResultsError;
 
-/// Joins `relative` to the folder of results and fails where the path leads out of it: by `..`, by an absolute part, or
-/// through a link, dangling ones included. Everything that experiments write or remove goes through here.
+/// Joins `relative` to the folder of results and fails where the path leads out of it: by `..`, by
+/// an absolute part, or through a link, dangling ones included. Everything that experiments write
+/// or remove goes through here.
 ///
 /// # Errors
 /// [`ResultsError::Outside`].

@@ -15,7 +15,7 @@ use crate::quad_graph::dual::DUAL_POINTS;
 use crate::report::Report;
 use crate::solver::solver_names;
 
-/// One surface, one map; the result is its [`Report`].
+/// The kind of experiment that maps a surface; the result is its [`Report`].
 pub(super) struct MapKind;
 
 /// `[solver]`.
@@ -31,22 +31,22 @@ struct SolverSpec {
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct FigureSpec {
-    /// The map flat, coloured by quasi-conformal error.
+    /// Whether the flat map is drawn, coloured by quasi-conformal distortion.
     flat: bool,
-    /// The map flat, beside the surface with the map's checkerboard.
+    /// The checkerboard on the surface, drawn beside the flat map.
     checkerboard: Option<Checkerboard>,
-    /// Faces of large error are drawn red.
+    /// The faces of large error that are drawn red.
     mark: Option<Mark>,
-    /// Below the pair, instead of the title.
+    /// The caption below the pair, instead of the title.
     caption: Option<Caption>,
-    /// How the runs converge, all in one plot.
+    /// The plots of convergence over all runs.
     #[serde(deserialize_with = "one_or_more")]
     convergence: Vec<Convergence>,
 }
 
 struct MapTask {
     title: String,
-    /// As JSON, for captions.
+    /// The config as JSON, for captions.
     config: Value,
     surface: SurfaceSpec,
     options: MapOptions,
@@ -124,8 +124,8 @@ impl Task for MapTask {
     }
 }
 
-/// A report as records have it: without times and memory, which have a place of their own there, and without the walks along the mesh, which are
-/// as long as it is wide; their lengths remain.
+/// The report as it goes into a record: without times and memory, which have a place of their own
+/// there, and without paths along the mesh, which are as long as it is wide; their lengths remain.
 pub(super) fn untimed(report: Report) -> Result<Value, serde_json::Error> {
     let mut result = serde_json::to_value(report)?;
     if let Some(solver) = result.get_mut("solver").and_then(Value::as_object_mut) {

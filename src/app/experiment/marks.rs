@@ -4,13 +4,13 @@ use serde_json::{Value, json};
 use crate::distortion::{FaceMap, corner_errors, quasi_conformal_errors};
 use crate::map::Mapped;
 
-/// Which faces are drawn red; `figures.mark` of an experiment.
+/// The choice of faces that are drawn red: `figures.mark` of an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mark {
-    /// Those whose error exceeds this (> 1).
+    /// Faces whose error exceeds this number (> 1) are marked.
     pub above: f64,
-    /// What is measured.
+    /// The error that is measured.
     #[serde(default)]
     pub by: Measure,
 }
@@ -30,7 +30,7 @@ pub enum Measure {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marks {
     mark: Mark,
-    /// Negative where a face is turned over.
+    /// The error of every face; negative where it is flipped.
     pub(super) errors: Vec<f64>,
 }
 
@@ -46,12 +46,12 @@ impl Marks {
         Marks { mark, errors }
     }
 
-    /// Where the scale ends.
+    /// The upper end of the scale.
     pub fn above(&self) -> f64 {
         self.mark.above
     }
 
-    /// Beside the colour bar.
+    /// The label of the colour bar.
     pub fn label(&self) -> &'static str {
         match self.mark.by {
             Measure::Face => "quasi-conformal error σ₁/σ₂",
@@ -59,14 +59,14 @@ impl Marks {
         }
     }
 
-    /// The marked faces: those that are turned over are among them.
+    /// The marked faces, flipped ones included.
     pub fn faces(&self) -> Vec<usize> {
         let large = |e: f64| e < 0.0 || e > self.mark.above;
         (0..self.errors.len()).filter(|&f| large(self.errors[f])).collect()
     }
 
-    /// What a record says of them: `above`, number and share of the marked `faces`, `median` and `max` of the errors of all that
-    /// are not turned over or collapsed.
+    /// The entry in a record: `above`, number and share of the marked `faces`, `median` and `max`
+    /// of the errors of all faces that are neither flipped nor collapsed.
     pub fn record(&self) -> Value {
         let faces = self.faces().len();
         // Rounding may have put σ1/σ2 below 1.

@@ -1,12 +1,15 @@
-//! Experiments: one TOML file per claim, study or figure; one record per run; tables and plots made of records alone.
+//! Experiments: one TOML file per claim, study or figure; one record per run; tables and plots made
+//! of records alone.
 //!
-//! A config names what is run once (`[surface]`, `[map]`, …), what is varied (`[sweep]`: the cartesian product over dotted
-//! keys; `[names]`: short names of swept values, for files), what must come out (`[expect]`) and what is shown (`[table]`, `[plots.NAME]`). Any key can be set from outside
-//! ([`Config::load`]). Keys of records are dotted too: `config.map.dual`, `result.distortion.flipped`, `timings.total`.
+//! A config names what is run once (`[surface]`, `[map]`, …), what is varied (`[sweep]`: the
+//! cartesian product over dotted keys; `[names]`: short names of swept values, for files), what
+//! must come out (`[expect]`) and what is shown (`[table]`, `[plots.NAME]`). Any key can be set
+//! from outside ([`Config::load`]). Keys of records are dotted too: `config.map.dual`,
+//! `result.distortion.flipped`, `timings.total`.
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `document.rs` | TOML that knows its lines; setting dotted keys; errors with line and caret |
+//! | `document.rs`, `place.rs`, `error.rs` | TOML with places in the text; setting dotted keys; errors with line and caret |
 //! | `config.rs`, `shard.rs` | [`Config`]: a file made into [`Run`]s; [`Shard`]s of them |
 //! | `surface.rs`, `data.rs` | `[surface]`; public files, and where they come from |
 //! | `expect.rs`, `without.rs`, `folder.rs` | bounds on results; runs that are not made; meshes of a folder |
@@ -26,9 +29,10 @@
 //! | `model.rs` | maps → the surface under its checkerboard, to be turned around in a viewer |
 //! | `repository.rs` | where experiments and results lie; the revision of the program |
 //!
-//! Results of one experiment are `<results>/<name>/records.jsonl`, one record a line, which the same program writes again bit for
-//! bit on the same platform; `timings.jsonl`, which differs from run to run and is not committed; `table.md`; and pictures and
-//! plots in `<results>/figures/`. `<results>/provenance.json` says which program and platform made them.
+//! Results of one experiment are `<results>/<name>/records.jsonl`, one record a line, which the
+//! same program writes again bit for bit on the same platform; `timings.jsonl`, which differs from
+//! run to run and is not committed; `table.md`; and pictures and plots in `<results>/figures/`.
+//! `<results>/provenance.json` says which program and platform made them.
 
 mod batch;
 mod caption;
@@ -56,6 +60,7 @@ mod page;
 mod panels;
 mod peer;
 mod picture;
+mod place;
 mod pool;
 mod provenance;
 mod record;
@@ -83,7 +88,7 @@ pub use config::{Column, Config, Run, check_figures};
 pub use convergence::{Convergence, ConvergenceX, ConvergenceY, trace};
 pub use data::{DataFile, Origin, data_folders};
 pub use document::{Document, Settings};
-pub use error::{ConfigError, Place, ResultsError, RunError};
+pub use error::{ConfigError, ResultsError, RunError};
 pub use expect::{Bound, Bounds, Expectation};
 pub use explanation::DiagramError;
 pub use fit::{Abscissa, FitSpec, Fitted};
@@ -93,6 +98,7 @@ pub use model::{ModelError, stage_model};
 pub use page::{page, write_page};
 pub use panels::PanelSpec;
 pub use picture::{Checkerboard, Up, checkerboard, checkerboard_pair, flat_map};
+pub use place::Place;
 pub use provenance::Provenance;
 pub use record::{Outcome, Record};
 pub use repository::{EXPERIMENTS, has_experiments, revision};
@@ -108,38 +114,38 @@ pub use without::Without;
 
 use crate::figure::Format;
 
-/// A kind of experiment: what one run of it does.
+/// A kind of experiment, which defines the computation of a run.
 pub trait ExperimentKind: Sync {
-    /// What a config says as `kind`.
+    /// The value of `kind` in configs.
     fn name(&self) -> &'static str;
-    /// One line.
+    /// A description of one line.
     fn description(&self) -> &'static str;
-    /// The top-level tables of its configs, beside those that all kinds have.
+    /// The top-level tables of its configs beyond those of all kinds.
     fn tables(&self) -> &'static [&'static str];
-    /// Columns of its table where a config does not choose: dotted key of the record, heading.
+    /// The default columns of its table: dotted key of the record and heading.
     fn columns(&self) -> &'static [(&'static str, &'static str)];
-    /// One run, from a config without sweep.
+    /// Makes the task of one run from a config without sweep.
     ///
     /// # Errors
-    /// Whatever is wrong with the config; nothing is computed yet.
+    /// [`ConfigError`]: an error in the config. Nothing is computed yet.
     fn task(&self, config: &Document) -> Result<Box<dyn Task>, ConfigError>;
 }
 
-/// One run, ready to be made.
+/// The computation of one run.
 pub trait Task: Sync {
-    /// Makes it.
+    /// Computes the run.
     ///
     /// # Errors
-    /// Why there is no result; the text goes into the record.
+    /// [`RunError`]: there is no result. The text goes into the record.
     fn run(&self) -> Result<Yield, RunError>;
 }
 
-/// What a run yields.
+/// The yield of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Yield {
-    /// The same on every run.
+    /// The result, which is the same every time the run is made.
     pub result: Value,
-    /// Seconds.
+    /// Times in seconds.
     pub timings: Value,
     /// Versions of other programs that took part.
     pub versions: BTreeMap<String, String>,
@@ -150,11 +156,11 @@ pub struct Yield {
 /// A picture of a run: `results/figures/<config>-<run><suffix>.<format>`.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// What tells it from other pictures of the run, such as `-checkerboard`; may be empty.
+    /// Distinguishes several pictures of one run, such as `-checkerboard`; may be empty.
     pub suffix: &'static str,
-    /// Of the file.
+    /// The format of the file.
     pub format: Format,
-    /// The file.
+    /// The contents of the file.
     pub bytes: Vec<u8>,
 }
 

@@ -9,19 +9,19 @@ use crate::io::{Staged, WriteError, stage_glb};
 use crate::map::Mapped;
 use crate::map::periodic::checker;
 
-/// No file of a surface to be turned around.
+/// An error in writing the textured surface as binary glTF.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelError {
-    /// There is no checkerboard on this map.
+    /// The map has no checkerboard.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// It cannot be written.
+    /// The file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
-/// Binary glTF of the faces that were mapped, under the checkerboard of [`checkerboard`](super::checkerboard) and lit by the
-/// same normals, not yet in its place.
+/// Binary glTF of the faces that were mapped, under the checkerboard of
+/// [`checkerboard`](super::checkerboard) and lit by the same normals, not yet in its place.
 ///
 /// # Errors
 /// [`ModelError`].

@@ -4,7 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use serde_json::Value;
 
-/// The largest length in bytes of the name of a run, without the number that tells equal names apart.
+/// The largest length in bytes of the name of a run, without the number that tells equal names
+/// apart.
 const LONGEST: usize = 100;
 
 /// What the names of a run's pictures end in: [`Picture::suffix`](super::Picture::suffix).
@@ -13,8 +14,8 @@ pub(super) const SUFFIXES: [&str; 3] = ["", "-flat", "-checkerboard"];
 /// Names that mean something else in a folder of results.
 const RESERVED: [&str; 3] = ["bench", "figures", "provenance"];
 
-/// The names given so far. Every name is asked for by its base, so that naming `n` runs takes `O(n)` look-ups even where
-/// all bases are equal: each base remembers the number it gave last.
+/// The names given so far. Every name is asked for by its base, so that naming `n` runs takes
+/// `O(n)` look-ups even where all bases are equal: each base remembers the number it gave last.
 #[derive(Default)]
 pub(super) struct Names {
     given: HashSet<String>,
@@ -27,8 +28,8 @@ impl Names {
         self.given.insert(name.to_owned());
     }
 
-    /// Returns the first of `base`, `base-2`, `base-3`, … that is free with each of `suffixes` appended, and takes these
-    /// names.
+    /// Returns the first of `base`, `base-2`, `base-3`, … that is free with each of `suffixes`
+    /// appended, and takes these names.
     pub(super) fn unique(&mut self, base: &str, suffixes: &[&str]) -> String {
         let last = self.last.entry(base.to_owned()).or_insert(0);
         loop {
@@ -42,10 +43,10 @@ impl Names {
     }
 }
 
-/// The base of a run's name: the last part of each swept key with the name that `[names]` gives to its value, else with the
-/// value, such as `n=33,dual=barycentre`. Every run of
-/// other characters than ASCII letters, digits and `+-._=` becomes one hyphen, and a table contributes its values alone, so
-/// that the name is one component of a path whatever the config says.
+/// The base of a run's name: the last part of each swept key with the name that `[names]` gives to
+/// its value, else with the value, such as `n=33,dual=barycentre`. Every run of other characters
+/// than ASCII letters, digits and `+-._=` becomes one hyphen, and a table contributes its values
+/// alone, so that the name is one component of a path whatever the config says.
 pub(super) fn run_base(config: &Value, swept: &[String], names: &[Option<&str>]) -> String {
     let part = |(key, name): (&String, &Option<&str>)| {
         let value = key.split('.').try_fold(config, |value, name| value.get(name)).unwrap_or(&Value::Null);
@@ -82,8 +83,8 @@ fn plain(text: &str) -> String {
     name
 }
 
-/// The middle of the name of a run's pictures: [`run_base`] without the keys, of ASCII letters, digits and hyphens, which
-/// neither LaTeX nor a shell gives a meaning.
+/// The middle of the name of a run's pictures: [`run_base`] without the keys, of ASCII letters,
+/// digits and hyphens, which neither LaTeX nor a shell gives a meaning.
 pub(super) fn picture_base(run: &str) -> String {
     let values = run.split(',').map(|part| part.split_once('=').map_or(part, |(_, value)| value));
     let joined = values.collect::<Vec<_>>().join("-").replace(['+', '.', '_'], "-");
@@ -103,7 +104,8 @@ pub(super) fn is_plot_name(name: &str) -> bool {
     (1..=LONGEST).contains(&name.len()) && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
 }
 
-/// Whether the results of a config may have this name, which becomes a folder and a part of the names of files.
+/// Whether the results of a config may have this name, which becomes a folder and a part of the
+/// names of files.
 pub(super) fn is_config_name(name: &str) -> bool {
     let allowed = |c: char| c.is_alphanumeric() || "-_.".contains(c);
     name.len() <= LONGEST
@@ -112,7 +114,8 @@ pub(super) fn is_config_name(name: &str) -> bool {
         && !RESERVED.contains(&name)
 }
 
-/// The one of `known` that `word` is a misspelling of: at most two single-character edits, and fewer than its length.
+/// The one of `known` that `word` is a misspelling of: at most two single-character edits, and
+/// fewer than its length.
 pub(super) fn near<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
     let distances = known.iter().map(|name| (edits(word, name), *name));
     distances.filter(|(edits, name)| *edits <= 2 && *edits < name.chars().count()).min().map(|(_, name)| name)

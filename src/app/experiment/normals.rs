@@ -8,7 +8,7 @@ use crate::geometry::vector::{cross, dot, norm};
 use crate::surface::edges::Edges;
 use crate::surface::normals::{Facets, NormalSpec};
 
-/// Estimated normals of a digitised shape against its exact ones.
+/// The kind of experiment that compares estimated normals of a digitised shape with exact ones.
 pub(super) struct NormalsKind;
 
 /// `[normals]`.

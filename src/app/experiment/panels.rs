@@ -1,4 +1,4 @@
-//! Plots of the same kind beside each other, a panel for each value of one or two keys.
+//! Plots with several panels, one for each value of one or two keys.
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -11,9 +11,9 @@ use crate::figure::Series;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PanelSpec {
-    /// Dotted keys whose values lie below each other.
+    /// Dotted keys whose values vary from row to row.
     pub rows: Vec<String>,
-    /// Dotted keys whose values lie beside each other.
+    /// Dotted keys whose values vary from column to column.
     pub columns: Vec<String>,
 }
 
@@ -28,7 +28,7 @@ impl PanelSpec {
         self.rows.iter().chain(&self.columns)
     }
 
-    /// The panels of `records`, row by row, and how many stand beside each other.
+    /// The panels of `records`, row by row, and the number of columns.
     pub(super) fn cells<'a>(&self, records: &[&'a Record]) -> (Vec<Cell<'a>>, usize) {
         let distinct = |keys: &[String]| {
             let mut distinct: Vec<Vec<Value>> = Vec::new();
@@ -66,10 +66,12 @@ fn title(key: &str, value: &Value) -> String {
     }
 }
 
-/// Lowers `series` by the lowest y of all, E*, unless that is as good as 0: below 10⁻⁸ of the highest. Returns what was taken
-/// away; a point at the lowest itself becomes 0 and has no place on a logarithmic axis.
+/// Subtracts the lowest y of all, E*, from `series` unless it is negligible, below 10⁻⁸ of the
+/// highest. Returns what was subtracted. A point with the lowest y becomes 0 and is not drawn on a
+/// logarithmic axis.
 pub(super) fn above_lowest(series: &mut [Series]) -> f64 {
-    /// Energies that can vanish end between 10⁻³⁰ and, on coarse meshes, 10⁻⁹ of the start's; minima of the others above 10⁻³.
+    /// Energies that can vanish end between 10⁻³⁰ and, on coarse meshes, 10⁻⁹ of the start's;
+    /// minima of the others above 10⁻³.
     const VANISHING: f64 = 1e-8;
     let all = || series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).filter(|y| y.is_finite());
     let (lowest, highest) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));

@@ -17,10 +17,11 @@ use crate::map::{self, MapError, MapOptions, Mapped};
 use crate::quad_graph::dual::DUAL_POINTS;
 use crate::report::{ErrorRecord, Report};
 
-/// One surface, mapped with a dual point or by a peer, both measured alike.
+/// A surface mapped by Riemap with a dual point, or by a peer; both maps are measured in the same
+/// way.
 pub(super) struct PeerKind;
 
-/// The method that is all that `[map]` says.
+/// The method that leaves everything to `[map]`.
 const OURS: &str = "riemap";
 
 /// `[method]`.
@@ -110,8 +111,8 @@ impl Task for PeerTask {
     }
 }
 
-/// Distances to the exact map: after the Möbius map through the three boundary points that our maps hold, which moves
-/// these by rounding alone; and after that which makes the mean square least.
+/// Distances to the exact map: after the Möbius map through the three boundary points that our maps
+/// hold, which moves these by rounding alone; and after that which makes the mean square least.
 fn errors(exact: &[[f64; 2]], mut mapped: Mapped) -> Result<[ErrorRecord; 2], RunError> {
     let w: Vec<Complex64> = exact.iter().map(|&[x, y]| Complex64::new(x, y)).collect();
     let (disc, graph) = (&mapped.domain.disc, &mapped.domain.graph);

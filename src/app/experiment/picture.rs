@@ -19,9 +19,9 @@ use crate::surface::oriented_mesh::OrientedMesh;
 pub struct Checkerboard {
     /// Squares along the longer side of the map.
     pub squares: usize,
-    /// What is upright in the picture.
+    /// The upright direction of the picture.
     pub up: Up,
-    /// Direction from the surface to the eye; by default chosen.
+    /// Direction from the surface to the eye; chosen automatically by default.
     pub towards: Option<[f64; 3]>,
     /// Longest side of each of the two pictures, in units of paper ([`Pair::SIDE`]).
     pub side: f64,
@@ -46,13 +46,13 @@ pub enum Up {
     Y,
     /// The third axis.
     Z,
-    /// Against the first axis.
+    /// The direction opposite to the first axis.
     #[serde(rename = "-x")]
     MinusX,
-    /// Against the second axis.
+    /// The direction opposite to the second axis.
     #[serde(rename = "-y")]
     MinusY,
-    /// Against the third axis.
+    /// The direction opposite to the third axis.
     #[serde(rename = "-z")]
     MinusZ,
 }
@@ -74,8 +74,8 @@ impl Up {
     }
 }
 
-/// The map flat, faces coloured by quasi-conformal error, or by that of `marks`. A periodic map is laid out once, as a
-/// parallelogram.
+/// Draws the flat map with faces coloured by quasi-conformal distortion, or by the errors of
+/// `marks`. A periodic map is drawn once, as a parallelogram.
 ///
 /// # Errors
 /// A map that cannot be drawn.
@@ -83,8 +83,9 @@ pub fn flat_map(mapped: &Mapped, marks: Option<&Marks>, title: &str, format: For
     FlatParts::of(mapped, &maps(mapped), marks).figure(title).render(format)
 }
 
-/// The surface, shaded, with the checkerboard that its map lays on it: conformal where the squares are squares. Flipped
-/// faces are marked, cuts drawn as lines. The checkerboard of a periodic map has no seam.
+/// Draws the shaded surface with the checkerboard of its map, which is conformal where the squares
+/// are squares. Flipped faces are marked, cuts drawn as lines. The checkerboard of a periodic map
+/// has no seam.
 ///
 /// # Errors
 /// A surface or a map that cannot be drawn.
@@ -111,8 +112,8 @@ pub fn checkerboard_pair(
     Pair { flat: &flat.figure(""), view: &view, side: look.side, caption }.render()
 }
 
-/// What the picture of a surface is made from, beside its positions in the source. Vertices are those of the source, so
-/// that no cut parts the light.
+/// The data of the picture of a surface besides the positions in the source. Vertices are those of
+/// the source, so that shading is continuous across cuts.
 pub(super) struct ViewParts {
     pub(super) faces: Faces,
     uv: Vec<[f64; 2]>,
@@ -180,7 +181,7 @@ fn flipped(maps: &[FaceMap]) -> Vec<usize> {
     (0..maps.len()).filter(|&f| !maps[f].positive).collect()
 }
 
-/// What the flat picture of a map is made from.
+/// The data of the flat picture of a map.
 struct FlatParts {
     points: Vec<[f64; 2]>,
     faces: Faces,

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 /// Interval of [`PoolEvent::Pulse`].
 const PULSE: Duration = Duration::from_millis(200);
-/// Stack of a worker: as a main thread has; other threads have 2 MiB by default.
+/// Stack size of a worker in bytes, as a main thread has; other threads have 2 MiB by default.
 const STACK: usize = 8 << 20;
 
 /// An event that [`pool`] reports to its caller.
@@ -19,8 +19,9 @@ pub(super) enum PoolEvent<T> {
     Pulse,
 }
 
-/// Runs `work` on items 0 … `count` − 1, begun in this order, on `threads` threads, and calls `on_event` on the calling thread.
-/// Begins no further item once `stop` returns true or `on_event` fails.
+/// Runs `work` on items 0 … `count` − 1, begun in this order, on `threads` threads, and calls
+/// `on_event` on the calling thread. Begins no further item once `stop` returns true or `on_event`
+/// fails.
 ///
 /// # Errors
 /// The error of `on_event`, or a thread that the system refuses to start.

@@ -13,16 +13,16 @@ use crate::io::atomically;
 /// The file, below the folder of results.
 const FILE: &str = "provenance.json";
 
-/// The program and the machine that made the records of a folder of results: `provenance.json`. It is written only where
-/// records change, so that the same program leaves the folder as it was.
+/// The program and the machine that made the records of a folder of results: `provenance.json`. It
+/// is written only where records change, so that the same program leaves the folder as it was.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Provenance {
     /// Version of Riemap.
     pub riemap: String,
     /// Git revision of the program that changed a record last.
     pub revision: Option<String>,
-    /// Processor and system of that program, such as `x86_64-v3 linux`. Floating-point numbers are the same bit for bit
-    /// only on the same platform.
+    /// Processor and system of that program, such as `x86_64-v3 linux`. Floating-point numbers are
+    /// the same bit for bit only on the same platform.
     pub platform: String,
     /// Versions of public files and of other programs that took part.
     pub versions: BTreeMap<String, String>,
@@ -54,8 +54,8 @@ impl Provenance {
     }
 }
 
-/// The platform, as far as it decides how floating-point numbers are rounded: of x86-64 also the level of its vector
-/// instructions, on which the order of sums depends.
+/// The platform, as far as it decides how floating-point numbers are rounded: of x86-64 also the
+/// level of its vector instructions, on which the order of sums depends.
 fn platform() -> String {
     use std::env::consts::{ARCH, OS};
     format!("{ARCH}{} {OS}", level())

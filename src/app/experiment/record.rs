@@ -3,15 +3,15 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// How a run ended.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// With a result, as expected.
+    /// The run has a result within its bounds.
     Done,
-    /// With a result that `[expect]` excludes.
+    /// The run has a result that `[expect]` excludes.
     Refuted,
-    /// Without a result.
+    /// The run has no result.
     Failed,
 }
 
@@ -22,13 +22,13 @@ pub struct Record {
     pub experiment: String,
     /// Name of the run within it: the swept values.
     pub run: String,
-    /// The config as resolved: swept values and settings from outside in their places.
+    /// The resolved config, with swept values and settings applied.
     pub config: Value,
-    /// How it ended.
+    /// The outcome.
     pub outcome: Outcome,
-    /// Why it failed or is refuted.
+    /// The reason of a failure or refutation.
     pub error: Option<String>,
-    /// What came out; null if nothing.
+    /// The result; null if there is none.
     pub result: Value,
     /// Its pictures: files in `figures/`.
     #[serde(default)]
@@ -36,13 +36,15 @@ pub struct Record {
     /// Seconds. They differ from run to run, and are not in `records.jsonl`.
     #[serde(default, skip_serializing_if = "Value::is_null")]
     pub timings: Value,
-    /// Versions of public files and of other programs that took part. They are not in `records.jsonl`.
+    /// Versions of public files and of other programs that took part. They are not in
+    /// `records.jsonl`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub versions: BTreeMap<String, String>,
 }
 
 impl Record {
-    /// The record without timings and versions: the part that is the same on every run of the same program.
+    /// The record without timings and versions: the part that is the same on every run of the same
+    /// program.
     pub fn same_on_every_run(&self) -> Record {
         Record { timings: Value::Null, versions: BTreeMap::new(), ..self.clone() }
     }
@@ -52,7 +54,8 @@ impl Record {
         self.same_on_every_run() == other.same_on_every_run()
     }
 
-    /// The value at a dotted key: `config.…`, `result.…`, `timings.…`, or `run`, `outcome`, `error`.
+    /// The value at a dotted key: `config.…`, `result.…`, `timings.…`, or `run`, `outcome`,
+    /// `error`.
     pub fn get(&self, key: &str) -> Option<Value> {
         let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
         let whole = match first {

@@ -1,11 +1,11 @@
 use std::path::Path;
 use std::process::Command;
 
-/// Where the program was built: Cargo's manifest.
+/// The folder in which the program was compiled.
 const CLONE: &str = env!("CARGO_MANIFEST_DIR");
 
-/// Whether the working directory holds `experiments/`. Nothing is looked for, read or written in the folder that the
-/// program was compiled in.
+/// Whether the working directory holds `experiments/`. Nothing is looked for, read or written in
+/// the folder that the program was compiled in.
 pub fn has_experiments() -> bool {
     Path::new(EXPERIMENTS).is_dir()
 }
@@ -13,8 +13,8 @@ pub fn has_experiments() -> bool {
 /// The folder of experiments, below the working directory.
 pub const EXPERIMENTS: &str = "experiments";
 
-/// The git revision of the clone that the program was built in, with `-dirty` if what the program is made of differs from
-/// it; `None` where that is not to be had.
+/// The git revision of the clone in which the program was compiled, with `-dirty` if its sources
+/// differ from it; `None` if it cannot be determined.
 pub fn revision() -> Option<String> {
     // A tree without a repository of its own may lie inside somebody else's.
     if !Path::new(CLONE).join(".git").exists() {

@@ -35,8 +35,8 @@ pub(super) fn make(config: &Config, run: &Run) -> EndedRun {
     EndedRun { record, pictures, seconds }
 }
 
-/// Makes the run at `position` and writes its scratch record and pictures: the work of the process that a
-/// [`Maker`](super::Maker) starts.
+/// Makes the run at `position` and writes its scratch record and pictures: the work of the process
+/// that a [`Maker`](super::Maker) starts.
 ///
 /// # Errors
 /// [`ResultsError`]: there is no run at that position, or a file cannot be written.
@@ -46,8 +46,8 @@ pub fn make_one(scratch: &Scratch, config: &Config, position: usize) -> Result<(
     write(scratch, config, run, &make(config, run))
 }
 
-/// Has a process of its own make a run within `limit` seconds. A process that leaves no record leaves a failure. Returns
-/// `None` where `stop` has ended the process.
+/// Has a process of its own make a run within `limit` seconds. A process that leaves no record
+/// leaves a failure. Returns `None` where `stop` has ended the process.
 pub(super) fn make_apart(
     scratch: &Scratch,
     config: &Config,
@@ -124,7 +124,7 @@ fn record(config: &Config, run: &Run, ended: Result<Yield, RunError>) -> (Record
     }
 }
 
-/// What `[expect]` excludes.
+/// Says which bounds of `[expect]` the result violates; `None` if it violates none.
 fn refutation(run: &Run, record: &Record) -> Option<String> {
     let violations = run.expect.iter().filter_map(|(key, bound)| {
         let violation = match record.get(key) {
@@ -137,7 +137,7 @@ fn refutation(run: &Run, record: &Record) -> Option<String> {
     (!violations.is_empty()).then(|| violations.join("; "))
 }
 
-/// An error and everything that it is because of, once each.
+/// The messages of an error and its causes, without repetitions.
 fn with_causes(error: &dyn std::error::Error) -> String {
     let mut text = error.to_string();
     let mut cause = error.source();

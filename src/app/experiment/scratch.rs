@@ -14,9 +14,10 @@ const ROOT: &str = ".unfinished";
 /// `<results>/.unfinished/<program>/<experiment>/<run>.json` per run.
 ///
 /// # Rationale
-/// A batch may be killed at any moment, and shards of it may work in the same folder at the same time. With one file per
-/// run nothing is rewritten and no two processes write the same file. At the summary of an experiment its scratch records
-/// are merged into `records.jsonl`; a batch that has ended removes them, so that only an interrupted batch is resumed.
+/// A batch may be killed at any moment, and shards of it may work in the same folder at the same
+/// time. With one file per run nothing is rewritten and no two processes write the same file. At
+/// the summary of an experiment its scratch records are merged into `records.jsonl`; a batch that
+/// has ended removes them, so that only an interrupted batch is resumed.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     results: PathBuf,
@@ -29,8 +30,8 @@ impl Scratch {
         Scratch { results: results.to_owned(), program: program.to_owned() }
     }
 
-    /// Returns the scratch records of the running program. Its name is the hash of the executable: a program that has been
-    /// rebuilt resumes nothing.
+    /// Returns the scratch records of the running program. Its name is the hash of the executable:
+    /// a program that has been rebuilt resumes nothing.
     ///
     /// # Errors
     /// [`ResultsError::Program`]: the executable cannot be read.
@@ -55,8 +56,8 @@ impl Scratch {
         serde_json::from_str(&text).ok().filter(|record: &Record| record.config == run.config)
     }
 
-    /// The record of a run that need not be made again. A failed run is made again, because its failure may have had a
-    /// cause that is gone, such as a missing network.
+    /// The record of a run that need not be made again. A failed run is made again, because its
+    /// failure may have had a cause that is gone, such as a missing network.
     pub(super) fn finished(&self, config: &Config, run: &Run) -> Option<Record> {
         self.record(config, run).filter(|record| record.outcome != Outcome::Failed)
     }

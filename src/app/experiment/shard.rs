@@ -14,7 +14,7 @@ impl Shard {
     pub const ALL: Shard = Shard { index: 1, count: 1 };
 }
 
-/// Neither `1/3` nor the like.
+/// The text is not a shard such as `1/3`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected i/n with 1 ≤ i ≤ n, for example 1/4")]
 pub struct NoShard;

@@ -7,12 +7,12 @@ use super::files::write_figure;
 use super::{Config, Record, ResultsError};
 use crate::figure::{compose, small_copy};
 
-/// `[sheet]`: the pictures of all runs as one figure, `figures/NAME.png`, and a copy for README and paper,
-/// `figures/small/NAME.png`.
+/// `[sheet]`: the pictures of all runs as one figure, `figures/NAME.png`, and a copy for README and
+/// paper, `figures/small/NAME.png`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SheetSpec {
-    /// Pictures in a row.
+    /// Number of pictures in a row.
     pub columns: usize,
 }
 
@@ -22,12 +22,13 @@ impl Default for SheetSpec {
     }
 }
 
-/// Pixels across of the copy.
+/// Width of the copy in pixels.
 const SMALL: u32 = 900;
 
 impl SheetSpec {
-    /// Makes both of what the records have; nothing while runs are missing, or pictures of them: a clone has the records of
-    /// runs that cannot be made here for want of data, but not their pictures.
+    /// Makes both from the pictures of the records, and nothing while runs or their pictures are
+    /// missing: a clone has records of runs that cannot be made here for want of data, but not
+    /// their pictures.
     ///
     /// # Errors
     /// Pictures that cannot be read or written.
@@ -59,7 +60,7 @@ impl SheetSpec {
     }
 }
 
-/// The picture of a run that goes on the sheet: the one with a checkerboard, where there are several.
+/// The picture of a run that is placed on the sheet: of several, the one with a checkerboard.
 pub(super) fn panel(record: &Record) -> Option<&String> {
     let pixels = || record.pictures.iter().filter(|name| name.ends_with(".png"));
     pixels().find(|name| name.ends_with("-checkerboard.png")).or_else(|| pixels().next())

@@ -15,7 +15,8 @@ use super::scratch::Scratch;
 use super::{Config, Record, ResultsError};
 use crate::io::atomically;
 
-/// The file of the records, below the folder of the experiment. It is the same on every run of the same program.
+/// The file of the records, below the folder of the experiment. It is the same on every run of the
+/// same program.
 const RECORDS: &str = "records.jsonl";
 /// The file of the timings, which differ from run to run.
 const TIMINGS: &str = "timings.jsonl";
@@ -27,8 +28,9 @@ struct Timing {
     timings: Value,
 }
 
-/// The records that `results` has of the runs of `config`, in the order of the runs, runs of `[full]` included, with their
-/// timings where these are there. A record of other settings does not count, nor does a line that is no record.
+/// The records that `results` has of the runs of `config`, in the order of the runs, runs of
+/// `[full]` included, with their timings where these are there. A record of other settings does not
+/// count, nor does a line that is no record.
 pub fn records(config: &Config, results: &Path) -> Vec<Record> {
     let folder = results.join(&config.name);
     let by_run = |record: Record| (record.run.clone(), record);
@@ -43,12 +45,13 @@ pub fn records(config: &Config, results: &Path) -> Vec<Record> {
     .collect()
 }
 
-/// Merges the scratch records of `config` into `records.jsonl` and `timings.jsonl`, both sorted by the names of the runs,
-/// and removes pictures that a run had before and has no longer. Where the records change, `provenance.json` is written.
+/// Merges the scratch records of `config` into `records.jsonl` and `timings.jsonl`, both sorted by
+/// the names of the runs, and removes pictures that a run had before and has no longer. Where the
+/// records change, `provenance.json` is written.
 ///
 /// # Errors
-/// [`ResultsError`]: a line of `records.jsonl` that is no record, which must not be lost in silence; a file that cannot be
-/// written.
+/// [`ResultsError`]: a line of `records.jsonl` that is no record, which must not be lost in
+/// silence; a file that cannot be written.
 pub(super) fn merge(config: &Config, scratch: &Scratch) -> Result<(), ResultsError> {
     let results = scratch.results();
     let made: Vec<Record> = config.all_runs().into_iter().filter_map(|run| scratch.record(config, run)).collect();
@@ -77,9 +80,9 @@ pub(super) fn merge(config: &Config, scratch: &Scratch) -> Result<(), ResultsErr
     Ok(())
 }
 
-/// Removes the records of runs that `config` no longer has, not even with `[full]`, with their pictures. A record of other
-/// settings under the name of a run stays until the run is made; plots that the config no longer has stay. Returns the
-/// names of the runs removed.
+/// Removes the records of runs that `config` no longer has, not even with `[full]`, with their
+/// pictures. A record of other settings under the name of a run stays until the run is made; plots
+/// that the config no longer has stay. Returns the names of the runs removed.
 ///
 /// # Errors
 /// [`ResultsError`] as [`merge`].

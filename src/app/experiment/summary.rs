@@ -8,18 +8,18 @@ use super::{Config, GroupSpec, Record, ResultsError};
 use crate::figure::{FigureError, Format};
 use crate::io::atomically;
 
-/// What has been made of the records of a config.
+/// The summary of the records of a config.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// The records that there are, in the order of the runs. Records of other settings do not count.
+    /// The records in the order of the runs. Records of other settings do not count.
     pub records: Vec<Record>,
-    /// Tables and plots written.
+    /// The tables and plots that were written.
     pub files: Vec<PathBuf>,
 }
 
-/// Sums up the records that `results` has of `config`'s runs, whichever shards they are from: `<config>/table.md` with
-/// everything that is the same on every run, `<config>/timings.md`, and the plots in `figures/`. Without any record nothing
-/// is written.
+/// Summarises the records of `config` in `results`, of all shards: writes `<config>/table.md` with
+/// everything that is the same on every run, `<config>/timings.md`, and the plots in `figures/`.
+/// Without any record nothing is written.
 ///
 /// # Errors
 /// A key that no record has; a plot or file that cannot be made.
@@ -66,7 +66,8 @@ pub fn summarise(config: &Config, results: &Path) -> Result<Summary, ResultsErro
     Ok(Summary { records, files })
 }
 
-/// A misspelt key must not become an empty column or plot. Without a single result there is nothing to check against.
+/// A misspelt key must not become an empty column or plot. Without a single result there is nothing
+/// to check against.
 fn check_keys(config: &Config, records: &[Record]) -> Result<(), ResultsError> {
     let finished: Vec<&Record> = records.iter().filter(|record| !record.result.is_null()).collect();
     let Some(example) = finished.first() else { return Ok(()) };

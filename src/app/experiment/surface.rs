@@ -8,7 +8,7 @@ use crate::input::{Input, InputOptions};
 use crate::io::Sample;
 use crate::surface::digital::Adjacency;
 
-/// `[surface]`: what is mapped.
+/// `[surface]`: the surface that is mapped.
 #[derive(Clone, Debug)]
 pub(super) struct SurfaceSpec {
     table: Table,
@@ -18,12 +18,12 @@ pub(super) struct SurfaceSpec {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Table {
-    /// A mesh file, `data:` and a public file, or the name of a generated surface.
+    /// A mesh file, `data:` with the name of a public file, or the name of a generated surface.
     source: String,
     /// Parameters of a generated surface beside those in its name, so that they can be swept.
     #[serde(default)]
     parameters: BTreeMap<String, Value>,
-    /// Volume files: as in [`InputOptions`].
+    /// Options of volume files, as in [`InputOptions`].
     threshold: Option<f64>,
     size: Option<[usize; 3]>,
     #[serde(rename = "type")]
@@ -33,14 +33,15 @@ struct Table {
 }
 
 impl SurfaceSpec {
-    /// The table `[surface]` of a config.
+    /// Reads the table `[surface]` of a config.
     pub(super) fn of(config: &Document) -> Result<Self, ConfigError> {
         let table: Table = config.table("surface")?;
         let data = DataFile::find(&table.source, config.data_folders());
         Ok(SurfaceSpec { table, data })
     }
 
-    /// The surface. One of a public file is called as the config calls it, wherever the file lies.
+    /// Reads or generates the surface. A public file is named as in the config, wherever the file
+    /// lies.
     pub(super) fn open(&self) -> Result<Input, RunError> {
         let Table { threshold, size, sample, adjacency, component, .. } = self.table;
         let options = InputOptions { threshold, size, sample, adjacency, component };

@@ -1,4 +1,5 @@
-//! The tables of an experiment: of its records, of groups of them, and of the exponents fitted to its plots.
+//! The tables of an experiment: of its records, of groups of them, and of the exponents fitted to
+//! its plots.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -6,8 +7,8 @@ use std::fmt::Write as _;
 use super::grid::{Grid, number};
 use super::{Config, Outcome, Record, fit, groups, without};
 
-/// The records as Markdown, and the exponents fitted to the series of plots; `timings`: what differs from run to run instead
-/// of the rest. `None` if there is nothing of that.
+/// The tables of `records` and the fitted exponents as Markdown. With `timings`, the columns that
+/// differ from run to run instead of the others. `None` if there are none of these.
 pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<String> {
     let grid = of_records(config, records, timings);
     let more: Vec<_> =
@@ -36,7 +37,8 @@ pub fn table(config: &Config, records: &[Record], timings: bool) -> Option<Strin
     Some(text)
 }
 
-/// All tables of an experiment with what each is: of results, of times, and of the exponents fitted to both.
+/// All tables of an experiment with their labels: of results, of times, and of the exponents fitted
+/// to both.
 pub(super) fn grids(config: &Config, records: &[Record]) -> Vec<(String, Grid)> {
     let mut grids = Vec::new();
     for (timings, label) in [(false, "Results"), (true, "Times, on the machine that made these results")] {
@@ -49,8 +51,8 @@ pub(super) fn grids(config: &Config, records: &[Record]) -> Vec<(String, Grid)> 
     grids
 }
 
-/// The records, one a row; `timings`: the columns that differ from run to run instead of the others. `None` if there are none
-/// of these.
+/// The table with one record per row. With `timings`, the columns that differ from run to run
+/// instead of the others. `None` if there are none of these.
 fn of_records(config: &Config, records: &[Record], timings: bool) -> Option<Grid> {
     let is_timing = |key: &str| key.starts_with("timings.");
     let columns: Vec<_> = config.columns.iter().filter(|column| is_timing(&column.key) == timings).collect();
@@ -79,7 +81,7 @@ fn of_records(config: &Config, records: &[Record], timings: bool) -> Option<Grid
     Some(Grid { headings, rows: records.iter().map(row).collect() })
 }
 
-/// How many of the runs that are to be made have a record.
+/// The number of runs to be made that have a record.
 pub(super) fn made(config: &Config, records: &[Record]) -> usize {
     let recorded: HashSet<&str> = records.iter().map(|record| record.run.as_str()).collect();
     config.runs.iter().filter(|run| recorded.contains(run.name.as_str())).count()

@@ -11,7 +11,8 @@ use crate::report::ErrorRecord;
 use crate::solver::Silent;
 use crate::solver::boundary::{self, BoundaryError, CirclePin, Linearised, singular_values};
 
-/// The circle map with H = 0, and how well its equations determine it.
+/// The kind of experiment that computes the circle map with H = 0 and the conditioning of its
+/// equations.
 pub(super) struct TheoremKind;
 
 struct TheoremTask {

@@ -4,17 +4,18 @@ use serde_json::Value;
 use super::Selection;
 use super::grid::number;
 
-/// `[[without]]`: runs of the sweep that are not made, and why; the table of the experiment says so too.
+/// `[[without]]`: runs of the sweep that are not made, with the reason, which the table of the
+/// experiment states.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Without {
-    /// By swept keys.
+    /// The runs, by swept keys.
     pub runs: Selection,
-    /// Why.
+    /// The reason.
     pub because: String,
 }
 
-/// What is left out, a sentence each.
+/// The sentences that say which runs are left out.
 pub(super) fn sentences(without: &[Without]) -> Vec<String> {
     let name = |key: &String| key.rsplit('.').next().unwrap_or(key).to_owned();
     let value = |value: &Value| match value {

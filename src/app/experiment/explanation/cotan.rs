@@ -1,4 +1,5 @@
-//! The cotan weight of an edge: two triangles unfolded into a plane, their circumcentres, and the dual edge.
+//! The cotan weight of an edge: two triangles unfolded into a plane, their circumcentres, and the
+//! dual edge.
 
 use std::f64::consts::TAU;
 

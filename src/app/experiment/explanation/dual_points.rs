@@ -66,7 +66,8 @@ fn dual_place(corners: [Point; 3], name: &str) -> Point {
     [0, 1].map(|k| (weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k]) / total)
 }
 
-/// Where all vertices of a quad graph are: those of the mesh, the dual points of its faces, the midpoints of its boundary.
+/// Where all vertices of a quad graph are: those of the mesh, the dual points of its faces, the
+/// midpoints of its boundary.
 fn places(disc: &OrientedMesh, graph: &QuadGraph, name: &str) -> Vec<Point> {
     let mut places: Vec<Point> = (0..graph.primal as u32).map(|v| plane(disc, v)).collect();
     places.extend(disc.faces.iter().map(|face| dual_place([0, 1, 2].map(|k| plane(disc, face[k])), name)));

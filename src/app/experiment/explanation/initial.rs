@@ -1,4 +1,5 @@
-//! The initial map: boundary on the circle by arc length, interior at the origin, then where H is least.
+//! The initial map: boundary on the circle by arc length, interior at the origin, then where H is
+//! least.
 
 use num_complex::Complex64;
 use serde_json::json;

@@ -1,4 +1,4 @@
-//! Diagrams: what the words of the method mean, drawn from what the program computes.
+//! Diagrams that explain the method, drawn from computed values.
 
 mod cotan;
 mod dual_points;
@@ -16,7 +16,7 @@ use crate::input::Input;
 use crate::map::MapOptions;
 use crate::surface::oriented_mesh::NotADisc;
 
-/// A drawing that explains, made of real numbers.
+/// The kind of experiment that draws a diagram from computed values.
 pub(super) struct DiagramKind;
 
 /// `[diagram]`.
@@ -25,17 +25,17 @@ pub(super) struct DiagramKind;
 struct Spec {
     /// One of [`DIAGRAMS`].
     name: String,
-    /// The face it is about, from 0.
+    /// Index of the face that is shown, from 0.
     #[serde(default)]
     face: usize,
-    /// The edge of that face it is about: behind its corner 0, 1, ….
+    /// The edge of that face that is shown: the edge that follows corner 0, 1, ….
     #[serde(default)]
     corner: usize,
-    /// Below it.
+    /// The text below the diagram.
     caption: Option<Caption>,
 }
 
-/// What a diagram is made from.
+/// The data from which a diagram is made.
 struct Subject<'a> {
     input: &'a Input,
     options: &'a MapOptions,
@@ -46,7 +46,7 @@ struct Subject<'a> {
 /// A diagram: its panels, how many stand in a row, and the numbers in it.
 type Drawn = (Diagram, Value);
 
-/// A diagram that can be asked for.
+/// A diagram with its name in configs.
 struct NamedDiagram {
     name: &'static str,
     draw: fn(&Subject) -> Result<Drawn, RunError>,
@@ -64,25 +64,25 @@ static DIAGRAMS: &[NamedDiagram] = &[
 /// A surface that a diagram cannot be made of.
 #[derive(Debug, thiserror::Error)]
 pub enum DiagramError {
-    /// Other faces than it is about.
+    /// The surface has faces of another kind than the diagram shows.
     #[error("the diagram `{diagram}` is of {wanted}, but {source_name} is not made of these")]
     Surface {
         /// Its name.
         diagram: &'static str,
-        /// What it takes.
+        /// The required kind of faces.
         wanted: &'static str,
         /// The surface.
         source_name: String,
     },
-    /// A surface that is no disc.
+    /// A surface that is not a disc.
     #[error(transparent)]
     NotADisc(#[from] NotADisc),
-    /// A face that is not there.
+    /// A face index out of range.
     #[error("the diagram is about face {face}, but {source_name} has only {faces} faces (counted from 0)")]
     Face {
         /// The face.
         face: usize,
-        /// How many there are.
+        /// The number of faces.
         faces: usize,
         /// The surface.
         source_name: String,

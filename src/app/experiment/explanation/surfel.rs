@@ -15,7 +15,7 @@ use crate::surface::Surface;
 use crate::surface::edges::Edges;
 use crate::surface::normals::Facets;
 
-/// Surfels drawn around the one: up to this distance, in voxels.
+/// Distance up to which neighbouring surfels are drawn, in voxels.
 const NEAR: f64 = 3.3;
 /// How far the tangent plane is lifted off the surface so that it can be seen, in voxels.
 const LIFT: f64 = 2.1;

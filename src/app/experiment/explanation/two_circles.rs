@@ -1,4 +1,5 @@
-//! The two circles on which a circle map with H = 0 has its boundary: the map, and the same with radii stretched about 1.
+//! The two circles on which a circle map with H = 0 has its boundary: the map, and the same with
+//! radii stretched about 1.
 
 use num_complex::Complex64;
 use serde_json::json;

@@ -14,15 +14,15 @@ use crate::app::experiment::store::records;
 use crate::app::experiment::tables::grids;
 use crate::app::experiment::{Config, Outcome, Record, without};
 
-/// More pictures of single runs than these are folded.
+/// The largest number of pictures of single runs that are shown unfolded.
 const MANY_PICTURES: usize = 8;
 
-/// What came of a claim.
+/// The verdict on a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
-    /// All runs that it speaks of are within its bounds.
+    /// All results are within their bounds.
     Holds,
-    /// Made, and nothing in the config could have refuted it.
+    /// The runs are made, and the config sets no bounds.
     Unbounded,
     /// A run is out of bounds.
     Refuted,
@@ -60,11 +60,11 @@ impl Verdict {
     }
 }
 
-/// An experiment with what there is of it.
+/// An experiment with its records.
 pub(super) struct Entry<'a> {
     pub(super) config: &'a Config,
     pub(super) records: Vec<Record>,
-    /// How many of the runs that are to be made have no record.
+    /// The number of runs to be made that have no record.
     missing: usize,
 }
 
@@ -80,7 +80,7 @@ impl<'a> Entry<'a> {
         self.records.iter().filter(|record| record.outcome == outcome).count()
     }
 
-    /// Whether a run has failed that must not.
+    /// Whether a run has failed that may not fail.
     fn has_failed(&self) -> bool {
         let mut failed = self.records.iter().filter(|record| record.outcome == Outcome::Failed);
         let runs = self.config.all_runs();
@@ -139,7 +139,7 @@ impl<'a> Entry<'a> {
         text
     }
 
-    /// The claim's fate in a sentence.
+    /// The outcome of the runs in a sentence.
     fn outcome(&self) -> String {
         let absent = self.config.runs.iter().filter_map(|run| run.data.as_ref()).find(|data| data.path.is_none());
         let (refuted, failed) = (self.count(Outcome::Refuted), self.count(Outcome::Failed));
@@ -211,7 +211,7 @@ fn side_by_side(figures: &[String]) -> String {
     }
 }
 
-/// What has to be there, without the folders of this machine.
+/// Says which public file is missing, without naming folders of this machine.
 fn needs(data: &DataFile) -> String {
     match data.origin() {
         Some(origin) => format!("It needs data:{}, {} of github.com/{}.", data.name, origin.path, origin.repository),

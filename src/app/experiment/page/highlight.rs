@@ -1,4 +1,4 @@
-//! The text of a config, its comments, tables, keys and strings told apart.
+//! Syntax highlighting of configs: comments, tables, keys and strings.
 
 use super::html::escape;
 
@@ -52,19 +52,19 @@ fn mark(html: &mut String, class: &str, text: &str) {
     }
 }
 
-/// Where the comment of a line begins, or its end.
+/// The position at which the comment of a line begins, or the end of the line.
 fn comment_start(line: &str) -> usize {
     outside_strings(line, '#').unwrap_or(line.len())
 }
 
-/// Where the `=` after the key of a line is.
+/// The position of the `=` after the key of a line.
 fn assignment(code: &str) -> Option<usize> {
     // What begins otherwise is the inside of an array.
     let key = code.starts_with(|c: char| c.is_ascii_alphanumeric() || "\"'_-".contains(c));
     if key { outside_strings(code, '=') } else { None }
 }
 
-/// The first `wanted` of a line that is in no string.
+/// The position of the first `wanted` of a line outside of strings.
 fn outside_strings(line: &str, wanted: char) -> Option<usize> {
     let mut from = 0;
     loop {
@@ -77,7 +77,8 @@ fn outside_strings(line: &str, wanted: char) -> Option<usize> {
     }
 }
 
-/// The first string of a line, quotes included; to the end of the line where it is not closed there.
+/// The first string of a line, quotes included; to the end of the line where it is not closed
+/// there.
 fn string(text: &str) -> Option<(usize, usize)> {
     let from = text.find(['"', '\''])?;
     let quote = text[from..].chars().next()?;

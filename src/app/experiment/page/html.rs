@@ -12,7 +12,7 @@ const LONG_TABLE: usize = 16;
 /// Longer cells, in characters, are broken into lines: messages of runs that failed.
 const LONG_CELL: usize = 40;
 
-/// `text` where HTML has text or the value of an attribute.
+/// Escapes `text` for HTML text and attribute values.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -44,7 +44,7 @@ pub(super) fn address(path: &str) -> String {
     address
 }
 
-/// Width and height of a PNG file, from its header; `None` where it is none.
+/// Width and height of a PNG file, from its header; `None` for other files.
 pub(super) fn png_size(path: &Path) -> Option<[u32; 2]> {
     let mut header = [0u8; 24];
     File::open(path).ok()?.read_exact(&mut header).ok()?;
@@ -52,7 +52,8 @@ pub(super) fn png_size(path: &Path) -> Option<[u32; 2]> {
     header.starts_with(b"\x89PNG\r\n\x1a\n").then(|| [number(16), number(20)])
 }
 
-/// Width and height of an SVG file, from its first tag; `None` where that does not have them in pixels.
+/// Width and height of an SVG file, from its first tag; `None` where that does not have them in
+/// pixels.
 pub(super) fn svg_size(path: &Path) -> Option<[u32; 2]> {
     let text = fs::read_to_string(path).ok()?;
     let tag = text[text.find("<svg")?..].split('>').next()?;
@@ -60,7 +61,8 @@ pub(super) fn svg_size(path: &Path) -> Option<[u32; 2]> {
     Some([number("width")?, number("height")?])
 }
 
-/// A picture in `figures/` of `results`, linked to its vectors where there are some; `None` where it is none that shows.
+/// A picture in `figures/` of `results`, linked to its SVG file if there is one; `None` if it
+/// cannot be shown.
 pub(super) fn figure(results: &Path, file: &str, alt: &str, caption: Option<&str>) -> Option<String> {
     let folder = results.join("figures");
     let [width, height] = png_size(&folder.join(file))?;
@@ -106,12 +108,12 @@ pub(super) fn table(label: &str, grid: &Grid) -> String {
     }
 }
 
-/// A cell that belongs to the right; so does one that is empty.
+/// Whether a cell is aligned to the right: it is a number or empty.
 fn is_number(cell: &str) -> bool {
     cell.is_empty() || cell == "–" || cell.parse::<f64>().is_ok()
 }
 
-/// `html` below a line of text that opens it.
+/// `html` that is unfolded by a click on a line of text.
 pub(super) fn folded(summary: &str, html: &str) -> String {
     format!("<details><summary>{}</summary>\n{html}</details>\n", escape(summary))
 }

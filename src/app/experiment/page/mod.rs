@@ -1,8 +1,8 @@
-//! `results/index.html`: every experiment with its claim, its figures, its tables, its config and its command, on one page
-//! that needs nothing but the folder it lies in.
+//! `results/index.html`: every experiment with its claim, its figures, its tables, its config and
+//! its command, on one page that needs nothing but the folder it lies in.
 //!
-//! Made from configs and records alone, so that the same numbers make the same page; times and the revision are in it as
-//! the records have them.
+//! It is made from configs, records and provenance only, so that the same results make the same
+//! page; times are in it as the records have them.
 
 mod entry;
 mod highlight;
@@ -28,7 +28,7 @@ struct Part {
     id: &'static str,
     heading: &'static str,
     about: &'static str,
-    /// Which experiments belong there.
+    /// Whether an experiment belongs to the part.
     holds: fn(&Config) -> bool,
 }
 
@@ -54,7 +54,7 @@ const PARTS: [Part; 3] = [
     },
 ];
 
-/// Named `fig01`, `fig02`, …
+/// Whether an experiment is a figure of the paper: its name is `fig01`, `fig02`, ….
 fn is_figure(config: &Config) -> bool {
     config.name.strip_prefix("fig").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }

@@ -1,4 +1,4 @@
-//! What `riemap bench` has left beside the experiments: the bars with their verdicts, and the plots.
+//! The results of `riemap bench`: the requirements with their verdicts, and the plots.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -13,11 +13,11 @@ use crate::app::experiment::grid::{Grid, number};
 pub(super) const ID: &str = "part-speed";
 pub(super) const HEADING: &str = "Speed against other programs";
 
-/// The plots, each with what it shows.
+/// The plots with their captions.
 const PLOTS: [(&str, &str); 2] =
     [("solve.svg", "Processor seconds of the solve over vertices"), ("memory.svg", "Most memory held over vertices")];
 
-/// The part of the page; `None` where `riemap bench` has left nothing.
+/// The part of the page; `None` if there are no results of `riemap bench`.
 pub(super) fn part(results: &Path) -> Option<String> {
     let folder = results.join("bench");
     let text = fs::read_to_string(folder.join("bench.json")).ok()?;
