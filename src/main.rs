@@ -1,4 +1,4 @@
-//! The command line: parses, calls the library, prints.
+//! The program `riemap`: runs the command line and turns errors into messages and exit codes.
 
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
@@ -11,7 +11,7 @@ fn main() -> ExitCode {
     let result = cli::run(cli::Arguments::parse(), &mut out);
     match result.and_then(|()| Ok(out.flush()?)) {
         Ok(()) => ExitCode::SUCCESS,
-        // Whoever reads our output, such as `head`, has enough.
+        // The reader of the output, such as `head`, has read enough.
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("riemap: error: {}{}", message(&error), cli::advice(&error));
@@ -24,7 +24,7 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| cause.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == ErrorKind::BrokenPipe))
 }
 
-/// The error and its causes, but for those that the text before them has quoted.
+/// Joins an error and its causes, leaving out causes that the text before them contains.
 fn message(error: &anyhow::Error) -> String {
     let mut text = String::new();
     for cause in error.chain().map(|cause| cause.to_string()) {

@@ -1,4 +1,5 @@
-//! The record of a run: everything that a table or figure is made from. Field names are fixed; others may be added.
+//! The report of a map: every number that a table or figure uses. Fields may be added, but are
+//! never renamed; `schema/report.json` describes them.
 
 use std::fmt;
 
@@ -15,72 +16,72 @@ use crate::surface::digital::{Adjacency, Digital};
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::Component;
 
-/// One map, from input to distortion.
+/// The report of one map, from the surface to the distortion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
-    /// What was mapped.
+    /// The surface.
     pub input: InputRecord,
-    /// What was done to make it a disc, or closed.
+    /// How the surface was made a disc, or closed; `None` if it was mapped as it is.
     pub cut: Option<CutRecord>,
-    /// Its quad graph.
+    /// The quad graph of the surface.
     pub quad_graph: QuadGraphRecord,
     /// Energies of the map.
     pub energy: EnergyRecord,
-    /// How it was found.
+    /// The solver and how it ended.
     pub solver: SolverRecord,
-    /// How good it is.
+    /// Distortion of the map.
     pub distortion: Distortion,
-    /// Periodic maps: the periods.
+    /// Periods of a periodic map.
     pub periods: Option<PeriodsRecord>,
-    /// Against the exact map, where that is known.
+    /// Distance to the exact map, if that is known.
     pub error: Option<ErrorRecord>,
-    /// Free maps with boundary lengths that were asked for: how well they are met.
+    /// Errors of the boundary lengths, if a free map was asked to have given ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub boundary_lengths: Option<LengthsRecord>,
 }
 
-/// The surface.
+/// Counts and topology of the surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InputRecord {
-    /// Path, or name of a generated surface.
+    /// Path of the file, or name of the generated surface.
     pub path: String,
     /// `quad`, `triangle` or `digital`.
     pub kind: &'static str,
     /// Vertices in the file.
     pub vertices: usize,
-    /// Faces.
+    /// Number of faces.
     pub faces: usize,
-    /// Boundary loops.
+    /// Number of boundary loops.
     pub boundary_loops: usize,
-    /// Vertices in use − edges + faces.
+    /// Euler number: used vertices − edges + faces.
     pub euler: i64,
-    /// Genus.
+    /// Genus; `None` if the surface is not orientable or not a manifold.
     pub genus: Option<u64>,
-    /// Digital surfaces: the voxels and their boundary.
+    /// Voxels of a digital surface and their boundary.
     pub digital: Option<DigitalRecord>,
-    /// The faces without area that were mapped by a shape of their own, where there are some.
+    /// Faces without area that were given a shape, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surrogates: Option<SurrogatesRecord>,
 }
 
-/// Faces without area.
+/// Faces without area that were given a shape, and are left out of the distortion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurrogatesRecord {
-    /// How many. They are left out of what is said of distortion.
+    /// Number of these faces.
     pub count: usize,
-    /// What they were at rest: a vertex lifted off the longest edge, or a rectangle.
+    /// Shape at rest: `lifted`, a vertex lifted off the longest edge; or `rectangle`.
     pub shape: &'static str,
-    /// Height over length of that.
+    /// Height over length of that shape.
     pub height: f64,
-    /// The first of them, ascending, as the source numbers them.
+    /// The first of these faces, ascending, as the source numbers them.
     pub faces: Vec<u32>,
 }
 
 impl SurrogatesRecord {
-    /// How many faces are named.
+    /// Number of faces that are listed.
     const NAMED: usize = 10;
 
-    /// That of a disc; `None` where no face of the source has a surrogate.
+    /// Returns the record of a disc; `None` if no face of the source was given a shape.
     pub fn new(disc: &OrientedMesh) -> Option<Self> {
         let faces: Vec<u32> = disc.surrogates.faces.iter().map(|&f| disc.source_face[f as usize]).collect();
         let count = faces.iter().filter(|&&f| f != OrientedMesh::NEW).count();
@@ -98,16 +99,16 @@ impl SurrogatesRecord {
 pub struct DigitalRecord {
     /// Number of voxels.
     pub voxels: usize,
-    /// Interior adjacency: what became of edges where four surfels meet.
+    /// Interior adjacency at edges where four surfels meet.
     pub adjacency: Adjacency,
-    /// Which component of the boundary was mapped.
+    /// Component of the boundary that was mapped, from 0.
     pub component: usize,
-    /// Surfels of every component, largest first.
+    /// Number of surfels of every component, largest first.
     pub components: Vec<usize>,
 }
 
 impl DigitalRecord {
-    /// The record of a digital surface.
+    /// Returns the record of a digital surface.
     pub fn new(digital: &Digital) -> Self {
         DigitalRecord {
             voxels: digital.solid.len(),
@@ -118,100 +119,105 @@ impl DigitalRecord {
     }
 }
 
-/// The quad graph.
+/// Counts of the quad graph.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct QuadGraphRecord {
-    /// nv.
+    /// Number nv of vertices.
     pub vertices: usize,
-    /// nf.
+    /// Number nf of quads.
     pub quads: usize,
-    /// nb.
+    /// Number nb of boundary vertices.
     pub boundary_vertices: usize,
     /// Smallest Re ρ.
     pub min_re_rho: f64,
-    /// Quads with Re ρ ≤ 0.
+    /// Number of quads with Re ρ ≤ 0.
     pub negative_rho: usize,
-    /// Digital surfaces: surfels whose normal was tilted.
+    /// Number of surfels of a digital surface whose normal was tilted.
     pub clamped: usize,
 }
 
-/// Energies without their coefficients, but for the total. `None`: not a term, or undefined.
+/// Energies of the map, each without its coefficient; `None` if it is not a term, or undefined.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[allow(non_snake_case)]
 pub struct EnergyRecord {
-    /// Σ coefficient × energy.
+    /// Sum of coefficient times energy.
     pub total: Option<f64>,
-    /// Conformal.
+    /// Conformal energy.
     pub H: Option<f64>,
-    /// Circle.
+    /// Circle energy.
     pub C: Option<f64>,
-    /// Authalic.
+    /// Authalic energy.
     pub A: Option<f64>,
-    /// Metric, all edges.
+    /// Metric energy of all edges.
     pub L: Option<f64>,
-    /// Metric, boundary edges.
+    /// Metric energy of the boundary edges, the paper's L'.
     pub Lb: Option<f64>,
-    /// Conformal without folds.
+    /// MIPS, +∞ where a face is flipped.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub MIPS: Option<f64>,
-    /// Isometric without folds.
+    /// Symmetric Dirichlet energy, +∞ where a face is flipped.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub SD: Option<f64>,
 }
 
-/// The solver.
+/// The solver, how it ended, and what it took.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SolverRecord {
     /// Name of the solver, and in parentheses how it came to be used.
     pub backend: String,
-    /// `solved`; iterative ones: `converged`, `precision` (rounding keeps the energy from falling further),
+    /// `solved` by a direct solver; or `converged`, `precision` (rounding ends the descent),
     /// `max-iterations`, `interrupted`.
     pub status: &'static str,
-    /// One-to-one by the exact check of the doubles that are written: every face positive (quads: all four corners), the
-    /// boundary simple.
+    /// Whether the map is injective, by an exact check of its doubles: every face (of a quad, every
+    /// corner) is positively oriented, and the boundary is simple.
     pub valid: bool,
-    /// The same near every point: every face positive, once around every vertex; the boundary of a free map may overlap.
+    /// Whether the map is locally injective, by the same check: the faces wind once around every
+    /// vertex. The boundary of a free map may still cross itself.
     pub locally_injective: bool,
-    /// Whether a valid map was put in the place of the plain one.
+    /// Whether the map replaces a conformal one.
     pub repaired: bool,
-    /// Faces that the plain map has folded, where a valid one is in its place.
+    /// Number of flipped faces of the conformal map that was replaced.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plain_folded: Option<usize>,
-    /// The mean of σ1/σ2 of a plain map that folds nothing, where one of less shear is in its place.
+    /// Mean σ1/σ2 of a conformal map without flipped faces that was replaced by one of less
+    /// distortion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plain_shear: Option<f64>,
-    /// Vertices of the quad graph that are held at a place: of circle maps the boundary points that make it unique, one where a valid map
-    /// is in the place of the plain one and double precision does not suffice for more.
+    /// Number of pinned vertices of the quad graph. Of circle maps these are the boundary points
+    /// that make the map unique; a map that replaces a conformal one has a single one if double
+    /// precision does not suffice for more.
     pub held: usize,
-    /// Iterations; 0 for direct solvers.
+    /// Number of iterations; 0 for direct solvers.
     pub iterations: usize,
-    /// Euclidean norm of the energy's gradient at the free unknowns.
+    /// Euclidean norm of the gradient of the energy at the unknowns.
     pub gradient_norm: Option<f64>,
-    /// Relative residual of the linear system, of direct solvers.
+    /// Relative residual of direct solvers; error of the conditions that a map meets exactly.
     pub residual: Option<f64>,
     /// Wall-clock seconds.
     pub seconds: Seconds,
-    /// Processor seconds, all threads; `None` where the system does not say.
+    /// Processor seconds of all threads; `None` if the system does not report them.
     pub cpu_seconds: Option<Seconds>,
-    /// The most memory that the process has held at once, in bytes; `None` where the system does not say.
+    /// Peak memory of the process in bytes; `None` if the system does not report it.
     pub peak_bytes: Option<u64>,
-    /// Smallest singular value of the Jacobian, of nonlinear problems.
+    /// Smallest singular value of the Jacobian of a nonlinear problem.
     pub smallest_singular_value: Option<f64>,
-    /// `conformal`: (2) holds on every quad; `circle`, `lengths`: the boundary is on the circle, has its lengths, and H is the
-    /// lowest under that; none: the energy's minimum.
+    /// Condition that the map meets exactly: equation (2) on every quad (`conformal`), or the
+    /// boundary on the circle or with its lengths and H minimal under this condition (`circle`,
+    /// `lengths`). `None` for a minimum of the energy.
     pub exactly: Option<Exactly>,
-    /// Circle maps that are exactly conformal: ε of the two circles of the boundary, `|z|² = 1 ± ε`.
+    /// ε of the two circles `|z|² = 1 ± ε` on which the boundary of an exactly conformal circle map
+    /// lies.
     pub epsilon: Option<f64>,
 }
 
-/// What a run took.
+/// Time and memory of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {
-    /// By the clock on the wall.
+    /// Wall-clock seconds.
     pub seconds: Seconds,
-    /// Of the processor, all threads.
+    /// Processor seconds of all threads.
     pub cpu_seconds: Option<Seconds>,
-    /// The most memory held at once, in bytes.
+    /// Peak memory in bytes.
     pub peak_bytes: Option<u64>,
 }
 
@@ -228,21 +234,21 @@ pub struct Seconds {
     pub solve: f64,
     /// Measuring the distortion.
     pub measure: f64,
-    /// All, distortion included, writing not.
+    /// Sum of all phases; writing the outputs is not counted.
     pub total: f64,
 }
 
 /// Distance to the exact map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorRecord {
-    /// Over vertices.
+    /// Largest distance over the vertices.
     pub max: f64,
     /// Root of the mean square.
     pub rms: f64,
 }
 
 impl Report {
-    /// The record of a map.
+    /// Returns the report of a map.
     pub fn new(input: &Input, mapped: &Mapped, cost: Cost) -> Self {
         let Mapped { component, domain, map, distortion, validity, .. } = mapped;
         let Domain { disc, graph, .. } = domain;
@@ -267,7 +273,7 @@ impl Report {
 }
 
 impl EnergyRecord {
-    /// The energies of a map.
+    /// Returns the energies of a map.
     pub fn new(map: &Map) -> Self {
         let of = |name: &str| map.energies.iter().find(|(n, _)| *n == name).map(|(_, value)| *value);
         EnergyRecord {
@@ -284,7 +290,8 @@ impl EnergyRecord {
 }
 
 impl ErrorRecord {
-    /// The distance of a map to the exact one, `w` at the vertices of the source, over the vertices that both have.
+    /// Returns the distance between a map and the exact one, `w` at the vertices of the source,
+    /// over the vertices that both have.
     pub fn new(w: &[[f64; 2]], disc: &OrientedMesh, map: &Map) -> Self {
         let both = disc.source_vertex.iter().zip(&map.z).filter_map(|(&v, z)| Some((w.get(v as usize)?, z)));
         let distances = both.map(|(&[x, y], z)| (z.re - x).hypot(z.im - y));
@@ -299,7 +306,7 @@ impl ErrorRecord {
 }
 
 impl InputRecord {
-    /// The record of a surface of one component.
+    /// Returns the record of a surface of one component.
     pub fn new(input: &Input, component: &Component) -> Self {
         InputRecord {
             path: input.source.clone(),
@@ -320,7 +327,7 @@ impl InputRecord {
 }
 
 impl QuadGraphRecord {
-    /// The record of `graph`.
+    /// Returns the record of `graph`.
     pub fn new(graph: &QuadGraph) -> Self {
         QuadGraphRecord {
             vertices: graph.vertices,
@@ -334,7 +341,7 @@ impl QuadGraphRecord {
 }
 
 impl SolverRecord {
-    /// The record of a solution.
+    /// Returns the record of a map.
     pub fn new(map: &Map, validity: &Validity, cost: Cost) -> Self {
         SolverRecord {
             backend: map.provenance.to_string(),

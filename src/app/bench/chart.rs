@@ -1,19 +1,20 @@
-//! The record as plots: a panel a case, a line a contestant, against vertices.
+//! The record as plots against the number of vertices, with a panel for each case and a line for
+//! each contestant.
 
 use super::record::{Entry, Measured, Record};
 use super::{BenchError, CONTESTANTS};
 use crate::figure::{Axis, Format, Panels, Plot, Series};
 
-/// Number read off a median.
+/// Function that takes a number from a median.
 type Reading = fn(&Measured) -> Option<f64>;
 
-/// Name of the file, title, label of the axis, what is read.
+/// Name of the file, title, label of the axis, and the plotted number.
 const PLOTS: [(&str, &str, &str, Reading); 2] = [
     ("solve", "From the mesh in memory to the map", "processor seconds", |m| m.solve.cpu),
     ("memory", "The most memory held at once", "bytes", |m| Some(m.peak_bytes? as f64)),
 ];
 
-/// Names of all files that there may be.
+/// Names of all possible files.
 pub(super) fn files() -> impl Iterator<Item = String> {
     PLOTS.iter().map(|(name, ..)| file(name))
 }
@@ -22,10 +23,10 @@ fn file(name: &str) -> String {
     format!("{name}.svg")
 }
 
-/// The plots as SVG, each with the name of its file; those with nothing to draw are left out.
+/// Draws the plots as SVG, each with the name of its file. Plots without data are left out.
 ///
 /// # Errors
-/// As [`Panels::render`].
+/// Those of [`Panels::render`].
 pub fn plots(record: &Record) -> Result<Vec<(String, Vec<u8>)>, BenchError> {
     let mut files = Vec::new();
     for (name, title, label, reading) in PLOTS {
@@ -53,7 +54,7 @@ pub fn plots(record: &Record) -> Result<Vec<(String, Vec<u8>)>, BenchError> {
     Ok(files)
 }
 
-/// How many sizes of a case there are: a single one makes no line.
+/// Returns the number of sizes of a case; a single one makes no line.
 fn sizes(record: &Record, case: &str) -> usize {
     let mut sizes: Vec<usize> = record.entries.iter().filter(|e| e.case == case).map(|e| e.size).collect();
     sizes.sort_unstable();
@@ -61,7 +62,8 @@ fn sizes(record: &Record, case: &str) -> usize {
     sizes.len()
 }
 
-/// One for each contestant that has a median anywhere, so that all panels have the same legend.
+/// Returns one line for each contestant that has a median in any panel, so that all panels have the
+/// same legend.
 fn series(record: &Record, case: &str, reading: Reading) -> Vec<Series> {
     let known = |entry: &Entry| Some([entry.vertices as f64, reading(entry.median()?)?]);
     let points = |name: &str, case: Option<&str>| -> Vec<[f64; 2]> {

@@ -6,24 +6,24 @@ use crate::io::WriteError;
 use crate::map::MapError;
 use crate::surface::oriented_mesh::NotADisc;
 
-/// No comparison.
+/// Failure of a comparison.
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
-    /// No case of that name.
+    /// There is no case of that name.
     #[error("unknown case `{name}`; known: {known}")]
     UnknownCase {
-        /// As given.
+        /// The name.
         name: String,
-        /// Every case.
+        /// All cases.
         known: String,
     },
-    /// The sizes asked for are too large for all cases asked for.
+    /// The requested sizes are too large for all requested cases.
     #[error("none of the cases {cases} has a mesh of the sizes asked for")]
     NoMesh {
-        /// As asked for.
+        /// The requested sizes.
         cases: String,
     },
-    /// An interpreter that does not run.
+    /// An interpreter does not run.
     #[error(
         "{} cannot run the peers: {reason}\nName another interpreter of Python 3 with --python, or compare sizes alone with \
          --no-peers.",
@@ -32,33 +32,33 @@ pub enum BenchError {
     Python {
         /// The interpreter.
         python: PathBuf,
-        /// The system's message, or the last lines it printed.
+        /// The message of the system, or the last lines it printed.
         reason: String,
     },
-    /// A mesh that cannot be made or read.
+    /// A mesh cannot be generated or read.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A public file that is no disc.
+    /// A public file is not a disc.
     #[error(transparent)]
     NotADisc(#[from] NotADisc),
-    /// A surface that has no quad graph.
+    /// A surface has no quad graph.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// A file that cannot be written.
+    /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A plot that cannot be drawn.
+    /// A plot cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// A record that JSON has no words for.
+    /// The record cannot be written as JSON.
     #[error("the record cannot be written")]
     Json(#[from] serde_json::Error),
-    /// This program's own file, or a temporary one.
+    /// The file of this program, or a temporary one, cannot be used.
     #[error("{what}: {source}")]
     Io {
-        /// What was wanted of the system.
+        /// The failed operation.
         what: String,
-        /// What it said.
+        /// The reason given by the system.
         source: std::io::Error,
     },
 }

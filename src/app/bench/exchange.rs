@@ -1,4 +1,4 @@
-//! How fast meshes are read and written.
+//! Speed of reading and writing meshes.
 
 use std::fs;
 use std::io::Write;
@@ -12,8 +12,10 @@ use crate::input::Input;
 use crate::io::{self, Uv};
 use crate::surface::Surface;
 
-/// Processor seconds of reading OBJ, OFF and PLY and of writing OBJ and PLY with texture coordinates, of the mesh `source`; the
-/// medians of `repeats`. Files stay in the system's cache: this is our part of the work. Empty where processor time is not known.
+/// Measures the processor seconds of reading OBJ, OFF and PLY and of writing OBJ and PLY with
+/// texture coordinates, for the mesh `source`, as medians of `repeats`. Files stay in the cache of
+/// the system, so that only our part of the work counts. The result is empty if the system does not
+/// report processor time.
 ///
 /// # Errors
 /// A mesh that cannot be made; files that cannot be written or read.
@@ -55,7 +57,7 @@ fn row(
     Ok(median(taken).map(|cpu| Exchange { what, bytes, cpu }))
 }
 
-/// Text OFF, which the program reads and has no need to write.
+/// Writes text OFF, which the program reads but does not write otherwise.
 fn off(out: &mut dyn Write, surface: &Surface) -> std::io::Result<()> {
     writeln!(out, "OFF\n{} {} 0", surface.positions.len(), surface.faces.len())?;
     for [x, y, z] in &surface.positions {

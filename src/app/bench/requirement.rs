@@ -1,21 +1,21 @@
-//! The bars that the program is held to.
+//! Performance bars: upper and lower limits for measured ratios, times and memory.
 
 use serde::Serialize;
 
 use super::record::{ContestOutcome, Record};
 
-/// What is measured.
+/// The quantity that a bar limits.
 #[derive(Clone, Copy, Debug)]
 enum Measure {
-    /// Processor seconds of the solve, the first contestant over the second.
+    /// Processor seconds of the solve of the first contestant over those of the second.
     Ratio(&'static str, &'static str),
-    /// The most memory of a contestant's process, in GB of 10⁹ bytes.
+    /// Peak memory of the process of a contestant, in GB of 10⁹ bytes.
     Peak(&'static str),
-    /// Processor seconds of a contestant's solve over those at the given smaller size.
+    /// Processor seconds of the solve of a contestant over those at the given smaller size.
     Growth(&'static str, usize),
-    /// Processor seconds of a contestant's whole process over those of its solve.
+    /// Processor seconds of the whole process of a contestant over those of its solve.
     Whole(&'static str),
-    /// The slowest of reading and writing, MB/s.
+    /// Lowest speed of reading and writing, in MB/s.
     Slowest,
 }
 
@@ -28,7 +28,7 @@ enum Bound {
 struct Requirement {
     what: &'static str,
     case: &'static str,
-    /// `None`: the case is a file.
+    /// Approximate number of vertices; `None` if the case is a file.
     size: Option<usize>,
     measure: Measure,
     bound: Bound,
@@ -108,22 +108,22 @@ const BARS: &[Requirement] = &[
     bar("slowest of reading and writing meshes, MB/s", "grid", None, Slowest, AtLeast(100.0)),
 ];
 
-/// A bar and what came of it.
+/// A bar and its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
-    /// What is measured.
+    /// Description of the quantity.
     pub what: &'static str,
-    /// What came out; `None` where a part of it was not measured.
+    /// The measured value; `None` if a part of it was not measured.
     pub measured: Option<f64>,
-    /// Whether the true value is below `measured`, because a peer was stopped before its end.
+    /// Whether the true value is below `measured`, because a peer was stopped at its time limit.
     pub at_most: bool,
-    /// As it should be: `≤ 0.6`.
+    /// The limit, such as `≤ 0.6`.
     pub bound: String,
-    /// Whether it is; `None` where it is not known.
+    /// Whether the limit is kept; `None` if this is not known.
     pub holds: Option<bool>,
 }
 
-/// Every bar, measured as far as the record goes.
+/// Returns the outcome of every bar, as far as the record has measured it.
 pub fn verdicts(record: &Record) -> Vec<Verdict> {
     BARS.iter().map(|bar| bar.verdict(record)).collect()
 }
@@ -140,7 +140,7 @@ impl Requirement {
         Verdict { what: self.what, measured, at_most, bound, holds }
     }
 
-    /// The value, and whether it is only known to be no larger.
+    /// Returns the value, and whether it is only an upper bound.
     fn measure(&self, record: &Record) -> Option<(f64, bool)> {
         let median = |name: &str, size| record.entry(self.case, size, name).and_then(|entry| entry.median());
         let cpu = |name: &str, size| median(name, size).and_then(|m| m.solve.cpu);

@@ -1,4 +1,4 @@
-//! The mesh that everyone maps: one file for us, one in triangles for peers, and the measure of what comes back.
+//! The mesh of a contest as files, in triangles for peers, and the measurement of their maps.
 
 use std::path::{Path, PathBuf};
 
@@ -14,23 +14,23 @@ use crate::map::{Domain, MapOptions};
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::{Faces, Surface};
 
-/// A disc in a folder.
+/// A disc written to a folder.
 pub(super) struct Target {
     /// Name or path of the source.
     pub name: String,
-    /// Vertices.
+    /// Number of vertices.
     pub vertices: usize,
-    /// Faces.
+    /// Number of faces.
     pub faces: usize,
-    /// OBJ of `v` and `f` lines.
+    /// Path of an OBJ file of `v` and `f` lines.
     pub mesh: PathBuf,
-    /// The same in triangles: `mesh` itself where it has these.
+    /// Path of the same mesh in triangles, which is `mesh` if its faces are triangles.
     pub triangles: PathBuf,
     domain: Domain,
 }
 
 impl Target {
-    /// Makes or reads `source` and writes the files of it into `folder`.
+    /// Generates or reads `source`, and writes its files into `folder`.
     pub fn new(source: &str, folder: &Path) -> Result<Target, BenchError> {
         let input = Input::open(source)?;
         let disc = OrientedMesh::new(&input.surface, &input.diagnosis())?;
@@ -51,7 +51,7 @@ impl Target {
         Ok(Target { name: input.source, vertices, faces, mesh, triangles, domain })
     }
 
-    /// The quality of a map given by two little-endian doubles a vertex, or what is wrong with it.
+    /// Returns the quality of a map given as two little-endian doubles per vertex, or its fault.
     pub fn quality(&self, bytes: &[u8]) -> Result<Quality, String> {
         let (numbers, rest) = bytes.as_chunks::<8>();
         if numbers.len() != 2 * self.vertices || !rest.is_empty() {
@@ -66,14 +66,15 @@ impl Target {
             return Err(format!("its map is {} at vertex {} (0-based)", numbers[k], k / 2));
         }
         let z = numbers.as_chunks::<2>().0.iter().map(|&[x, y]| Complex64::new(x, y)).collect();
-        // Dual vertices, which peers know nothing of, go where measuring wants them: it looks at faces of the mesh.
+        // Dual vertices, which peers know nothing of, go where measuring wants them: it looks at
+        // faces of the mesh.
         let z = self.domain.with_dual_vertices(z, &Fixed::default());
         let Domain { disc, graph, .. } = &self.domain;
         Ok(Quality::of(&Distortion::new(disc, graph, None, &Image::of_disc(&z))))
     }
 }
 
-/// Every face as the triangles at its first corner.
+/// Splits every face into the triangles at its first corner.
 fn split(faces: &Faces) -> Faces {
     let of = |f: &[u32]| (1..f.len() - 1).map(|k| [f[0], f[k], f[k + 1]]).collect::<Vec<_>>();
     faces.iter().flat_map(of).collect()

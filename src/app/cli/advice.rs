@@ -1,4 +1,4 @@
-//! The options of the command line that help with an error of the library, whose messages name none.
+//! Options of the command line that help with an error. Messages of the library name no options.
 
 use crate::app::compare::verify::VerifyError;
 use crate::constraint::ConstraintError;
@@ -16,7 +16,7 @@ use crate::surface::oriented_mesh::NotADisc;
 use crate::surface::topology::diagnosis::Finding;
 use crate::surface::topology::homology::HomologyError;
 
-/// What to do about an error, as text to be written behind its message; empty where the message says all.
+/// Returns advice to append to the message of an error; empty if the message suffices.
 pub fn advice(error: &anyhow::Error) -> String {
     match error.chain().find_map(of_cause) {
         Some(lines) if lines.starts_with('\n') => lines,
@@ -57,14 +57,14 @@ fn of_map(error: &MapError) -> Option<String> {
         MapError::NormalsOfTriangles => "--normals and --rho are for quad meshes and digital surfaces: leave them out",
         MapError::SurrogateHeight { .. } => "leave the height of --surrogate out",
         MapError::SurrogateNormals { .. } => "leave --normals and --rho out, or --surrogate",
-        MapError::FreeBoundary => "hold the boundary (--boundary fixed), or add C, L or Lb to --energy",
+        MapError::FreeBoundary => "fix the boundary (--boundary fixed), or add C, L or Lb to --energy",
         MapError::PeriodicEnergy { .. } => "leave --energy out, or cut the surface open (--cut)",
         MapError::PeriodicPins => "leave --pin out",
         MapError::PeriodicSolver { .. } => "leave --solver out",
         MapError::PeriodicOpening => "leave --cut and --remove-face out, or choose another --boundary",
         MapError::PinOutside { .. } => "`riemap info --boundary` lists the boundary",
         MapError::NoCircle { .. } => "leave --keep-order out, or add C to --energy",
-        MapError::OnTheCut { .. } => "hold another vertex, or open the surface elsewhere (--remove-face)",
+        MapError::OnTheCut { .. } => "pin another vertex, or open the surface elsewhere (--remove-face)",
         MapError::WeightsOfNothing { clash: Clash::Energy, .. } => "leave --energy out, or --weights",
         MapError::WeightsOfNothing { clash: Clash::Solver, .. } => "leave --solver out, or --weights",
         MapError::NoValidStart { .. } => {
@@ -89,8 +89,7 @@ fn of_map(error: &MapError) -> Option<String> {
     Some(advice.to_owned())
 }
 
-const NON_POSITIVE_RHO: &str =
-    "use --dual barycentre or --weight unit, or with --boundary fixed hold the mesh's boundary alone (--hold primal)";
+const NON_POSITIVE_RHO: &str = "use --dual barycentre or --weight unit, or with --boundary fixed pin only the boundary of the mesh (--hold primal)";
 
 const CUT: &str = "cut the surface open (--cut)";
 
@@ -122,7 +121,7 @@ fn of_cut(error: &CutError) -> Option<String> {
     Some(advice.to_owned())
 }
 
-/// The advice on the one finding, or on each in turn, line by line.
+/// Returns the advice on each finding; several findings have one line each.
 fn of_findings(error: &NotADisc) -> String {
     match &error.findings[..] {
         [finding] => format!("{} (`riemap info` tells more)", of_finding(finding)),
@@ -130,12 +129,12 @@ fn of_findings(error: &NotADisc) -> String {
     }
 }
 
-/// What the user can do about a finding, or what the program did.
+/// Returns what the user can do about a finding, or what the program did about it.
 pub fn of_finding(finding: &Finding) -> &'static str {
     match finding {
         Finding::NoFaces => "give a mesh with faces",
         Finding::NotFinite { .. } => "correct the coordinates",
-        Finding::OutOfRange { .. } => "scale the coordinates: conformal maps do not depend on the unit of length",
+        Finding::OutOfRange { .. } => "rescale the coordinates: conformal maps do not depend on the unit of length",
         Finding::Polygons { .. } => {
             "triangulate all faces, or make all of them quads: meshes of triangles only or of quads only can be mapped"
         }
@@ -157,9 +156,9 @@ pub fn of_finding(finding: &Finding) -> &'static str {
         Finding::NonOrientable { .. } => {
             "a one-sided surface has no conformal map to the plane, and is not cut: separate faces along a one-sided loop"
         }
-        Finding::Reoriented { .. } => "they are turned over for the map; the output keeps the faces as they were",
+        Finding::Reoriented { .. } => "they are reoriented for the map; the output keeps the faces as they were",
         Finding::Components { .. } => "split the mesh, and map one component at a time",
-        Finding::Closed { genus: 0 } => "cut it open (--cut), or leave a face of a triangle mesh out (--remove-face F)",
+        Finding::Closed { genus: 0 } => "cut it open (--cut), or remove a face of a triangle mesh (--remove-face F)",
         Finding::Closed { genus: 1 } => "map it whole, with periods (--boundary periodic), or cut it open (--cut)",
         Finding::Closed { .. } => "cut it open (--cut)",
         Finding::NotADisc { genus: 0, .. } => {
@@ -169,7 +168,7 @@ pub fn of_finding(finding: &Finding) -> &'static str {
             "cut the surface open (--cut), or fill the holes and map it whole (--fill-holes --boundary periodic)"
         }
         Finding::NotADisc { .. } => CUT,
-        Finding::Unreferenced { .. } => "they are kept in the output, at the texture coordinate 0 0, and ignored",
+        Finding::Unreferenced { .. } => "they are ignored, and written with the texture coordinate 0 0",
         Finding::CoincidentVertices { .. } => "if the surface should be connected there, weld the vertices first",
     }
 }
@@ -284,7 +283,7 @@ mod tests {
             (NonManifoldEdges { edge: [3, 17], faces: (0..8).collect(), count: 2 }, "split"),
             (NonManifoldVertices { vertex: 17, fans: 3, count: 1 }, "let --cut"),
             (NonOrientable { component: 0, edge: [3, 17] }, "is not cut"),
-            (Reoriented { face: 17, count: 5 }, "turned over"),
+            (Reoriented { face: 17, count: 5 }, "reoriented for the map"),
             (Components { count: 3, faces: vec![9, 8, 7] }, "one component at a time"),
             (Closed { genus: 0 }, "--remove-face"),
             (Closed { genus: 1 }, "--boundary periodic"),

@@ -16,14 +16,16 @@ pub struct Arguments {
 
 /// Writes the completion script of a shell.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
-    // `generate` panics when a write fails, for example into a closed pipe: memory does not fail so.
+    // `generate` panics when a write fails, for example into a closed pipe: memory does not fail
+    // so.
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut super::Arguments::command(), "riemap", &mut script);
     out.write_all(&script)?;
     Ok(())
 }
 
-/// Writes the man page: the program, every command with its options, and the topics of `riemap help`.
+/// Writes the man page: the program, every command with its options, and the topics of `riemap
+/// help`.
 pub fn man(out: &mut dyn Write) -> Result<()> {
     let mut program = super::Arguments::command();
     program.build();

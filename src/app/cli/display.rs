@@ -1,4 +1,5 @@
-//! What `run` and `reproduce` show: a line that lives where a terminal listens, lines of finished runs elsewhere.
+//! The progress of `run` and `reproduce`: a line that is redrawn on a terminal; elsewhere a line
+//! for each finished run, and one every ten seconds.
 
 use std::io::{self, IsTerminal, Write, stderr, stdout};
 use std::time::{Duration, Instant};
@@ -7,23 +8,24 @@ use crate::app::experiment::{Config, Event, Outcome, Record, Run};
 
 use super::{interrupt, plural};
 
-/// Characters of the living line; terminals are rarely narrower, and a line that wraps cannot be taken back.
+/// Characters of the line that is redrawn. Terminals are rarely narrower, and a line that wraps
+/// cannot be erased.
 const WIDTH: usize = 79;
 
-/// Shows the progress of a batch and keeps count.
+/// Shows the progress of a batch and counts its runs.
 pub struct Display {
     begun: Instant,
     total: usize,
-    /// Runs that have ended, and how.
+    /// Runs whose expectations hold.
     pub done: usize,
     pub refuted: usize,
     pub failed: usize,
-    /// Refuted and failed, but for failures that are a result.
+    /// Runs that were refuted or failed, except for failures that are a result.
     pub unexpected: usize,
-    /// What went wrong, one line each.
+    /// Descriptions of the unexpected outcomes, one line each.
     pub complaints: Vec<String>,
     running: Vec<String>,
-    /// Runs that were finished before.
+    /// Runs that an earlier command had finished.
     pub skipped: usize,
     stopping: bool,
     live: bool,
@@ -36,7 +38,7 @@ pub struct Display {
 const SILENCE: Duration = Duration::from_secs(10);
 
 impl Display {
-    /// For `total` runs.
+    /// Creates the display of a batch of `total` runs.
     pub fn new(total: usize) -> Self {
         let live = stderr().is_terminal();
         Display {
@@ -56,12 +58,12 @@ impl Display {
         }
     }
 
-    /// Runs that have ended.
+    /// Returns the number of runs that have ended.
     pub fn ended(&self) -> usize {
         self.done + self.refuted + self.failed
     }
 
-    /// Shows an event.
+    /// Shows an event and updates the counts.
     pub fn show(&mut self, event: &Event, out: &mut dyn Write) -> io::Result<()> {
         self.clear();
         match event {
@@ -106,11 +108,11 @@ impl Display {
             }
         }
         self.draw();
-        // Seen at once, also through a pipe.
+        // A pipe should show it at once, too.
         out.flush()
     }
 
-    /// Counts a record; what is to be said of it.
+    /// Counts a record, and returns its outcome in words.
     fn count(&mut self, config: &Config, run: &Run, record: &Record) -> String {
         let (counter, word) = match record.outcome {
             Outcome::Done => (&mut self.done, "done"),
@@ -126,7 +128,7 @@ impl Display {
         format!("{word}: {error}")
     }
 
-    /// `40 runs in 12.3 s: 38 done, 1 refuted, 1 failed`.
+    /// Returns the summary, such as `40 runs in 12.3 s: 38 done, 1 refuted, 1 failed`.
     pub fn summary(&self) -> String {
         let runs = plural(self.ended(), "run", "runs");
         let mut text = format!("{runs} in {:.1} s: {} done", self.begun.elapsed().as_secs_f64(), self.done);
@@ -140,7 +142,7 @@ impl Display {
         text
     }
 
-    /// Takes the living line back.
+    /// Erases the line on the terminal.
     pub fn clear(&self) {
         if self.live {
             let _ = write!(stderr(), "\r\x1b[2K");
@@ -164,7 +166,7 @@ impl Display {
     }
 }
 
-/// `riemann source=plane,n=8`.
+/// Returns the name of a run, such as `riemann source=plane,n=8`.
 pub fn name(config: &Config, run: &Run) -> String {
     if config.swept.is_empty() { config.name.clone() } else { format!("{} {}", config.name, run.name) }
 }

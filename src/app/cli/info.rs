@@ -1,3 +1,5 @@
+//! `riemap info`: the kind, topology and defects of a surface.
+
 use std::io::Write;
 
 use anyhow::{Result, bail};
@@ -18,7 +20,7 @@ use super::source::Source;
 pub struct Arguments {
     #[command(flatten)]
     source: Source,
-    /// List the vertices of the boundary in order, surface on the left (from 0, as --pin and --positions count)
+    /// List the boundary vertices in order, with the surface on the left, counted from 0
     #[arg(long)]
     boundary: bool,
     /// Print one JSON object
@@ -84,7 +86,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     verdict(&input.source, problems)
 }
 
-/// Fails where the surface cannot be mapped as it is: the exit code is 1 then.
+/// Fails if the surface cannot be mapped as it is, so that the exit code is 1.
 fn verdict(source: &str, problems: usize) -> Result<()> {
     if problems > 0 {
         bail!("{source} cannot be mapped as it is: {}", plural(problems, "problem", "problems"));
@@ -92,7 +94,7 @@ fn verdict(source: &str, problems: usize) -> Result<()> {
     Ok(())
 }
 
-/// The same facts for programs.
+/// Describes the surface for programs.
 fn as_json(input: &Input, diagnosis: &Diagnosis, boundary: bool) -> Value {
     let Diagnosis { topology, findings, .. } = diagnosis;
     let component = |component: &Component| {
@@ -129,7 +131,7 @@ fn as_json(input: &Input, diagnosis: &Diagnosis, boundary: bool) -> Value {
     value
 }
 
-/// How severe a finding is, in a word.
+/// Returns the severity of a finding in one word.
 fn label(finding: &Finding) -> &'static str {
     match finding.severity() {
         Severity::Fatal => "problem",
@@ -138,7 +140,7 @@ fn label(finding: &Finding) -> &'static str {
     }
 }
 
-/// The voxels, and which component of their boundary this is.
+/// Describes the voxels, and the component of their boundary.
 fn describe_digital(digital: &Digital, out: &mut dyn Write) -> Result<()> {
     const SHOWN: usize = 8;
     let [x, y, z] = digital.solid.size();

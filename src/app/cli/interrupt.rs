@@ -1,4 +1,5 @@
-//! Signals that end the program: the first asks the command to stop, the second ends the program at once.
+//! Signals that end the program: the first asks the command to stop, the second ends the program at
+//! once.
 
 use std::sync::Arc;
 use std::sync::OnceLock;
@@ -23,8 +24,9 @@ pub fn listen() {
     RECEIVED.get_or_init(|| {
         let received = Arc::new(AtomicUsize::new(0));
         for signal in SIGNALS {
-            // Where a system refuses a handler, the signal ends the program as it does without one. The shutdown is
-            // registered before the flag that arms it: the first signal therefore only sets the flag.
+            // Where a system refuses a handler, the signal ends the program as it does without one.
+            // The shutdown is registered before the flag that arms it: the first signal therefore
+            // only sets the flag.
             let armed = Arc::new(AtomicBool::new(false));
             let _ = flag::register_conditional_shutdown(signal, exit_code(signal).into(), Arc::clone(&armed));
             let _ = flag::register(signal, armed);

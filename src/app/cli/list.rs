@@ -1,3 +1,5 @@
+//! `riemap list`: everything that has a name.
+
 use std::io::Write;
 
 use anyhow::Result;
@@ -15,12 +17,12 @@ use crate::surface::normals::NORMAL_ESTIMATORS;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Print one JSON object: sections, each an object from names to descriptions
+    /// Print one JSON object with a member per section, from names to descriptions
     #[arg(long)]
     json: bool,
 }
 
-/// The rows of one table.
+/// A title and the rows below it.
 struct Section {
     title: &'static str,
     how: &'static str,
@@ -46,7 +48,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     Ok(())
 }
 
-/// Everything that has a name.
+/// Returns all sections.
 fn sections() -> Vec<Section> {
     vec![
         section(

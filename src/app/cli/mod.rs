@@ -51,7 +51,8 @@ enum Command {
     /// Make one run of an experiment, in the process that `run` starts for it
     #[command(hide = true)]
     RunOne(one::Arguments),
-    /// List surfaces, normal estimators, energies, constraints, dual points, solvers and benchmark cases
+    /// List surfaces, normal estimators, energies, constraints, dual points, solvers and benchmark
+    /// cases
     List(list::Arguments),
     /// Write the completion script of a shell to the standard output
     Completions(completions::Arguments),
@@ -93,8 +94,8 @@ pub enum Ended {
     },
 }
 
-/// The exit code of a command that failed: 130, 143 or 129 after a signal, 3 for a map written at the user's own limit
-/// without convergence, otherwise 1.
+/// The exit code of a command that failed: 130, 143 or 129 after a signal, 3 for a map written at
+/// the user's own limit without convergence, otherwise 1.
 pub fn exit_code(error: &anyhow::Error) -> ExitCode {
     match error.downcast_ref::<Ended>() {
         Some(Ended::BySignal(_)) => interrupt::exit_code_of_signal().into(),

@@ -15,7 +15,8 @@ use super::interrupt;
 const ON_TERMINAL: Duration = Duration::from_millis(100);
 const ELSEWHERE: Duration = Duration::from_secs(10);
 
-/// A stopwatch that reports what the solver is doing, and asks it to stop when a signal has been received.
+/// A stopwatch that reports what the solver is doing, and asks it to stop when a signal has been
+/// received.
 pub struct Progress {
     pub watch: Stopwatch,
     stage: Arc<Mutex<Stage>>,
@@ -31,7 +32,8 @@ struct Stage {
     iteration: Option<(usize, f64, f64)>,
 }
 
-/// The thread that writes lines. It also writes during a long factorisation, in which the solver reports nothing.
+/// The thread that writes lines. It also writes during a long factorisation, in which the solver
+/// reports nothing.
 struct Reporter {
     end: Sender<()>,
     thread: JoinHandle<()>,
@@ -91,7 +93,8 @@ impl Reporter {
 }
 
 impl Stage {
-    /// The stage and the time since the start, as in `repairing 3/8, Newton 2: E = …, |gradient| = …, 4.2 s`.
+    /// The stage and the time since the start, as in `repairing 3/8, Newton 2: E = …, |gradient| =
+    /// …, 4.2 s`.
     fn line(&self, elapsed: Duration) -> String {
         let phase = match (self.phase, self.iteration) {
             (None, _) => "reading".to_owned(),
@@ -183,7 +186,8 @@ mod tests {
         let reporter = Reporter::start(stage, true, shared.clone());
         let written = |shared: &Shared| String::from_utf8(shared.0.lock().expect("no panic").clone()).expect("text");
         let begun = Instant::now();
-        // Half a minute is for a machine that does other things; a line is due after a tenth of a second.
+        // Half a minute is for a machine that does other things; a line is due after a tenth of a
+        // second.
         while !written(&shared).contains("reading, ") && begun.elapsed() < Duration::from_secs(30) {
             thread::sleep(Duration::from_millis(5));
         }

@@ -1,4 +1,5 @@
-//! How the surface is named on the command line, and how a volume file is made into one.
+//! The arguments that name a surface: a file or a generated surface, and how a volume becomes a
+//! surface.
 
 use anyhow::Result;
 use clap::Args;
@@ -11,23 +12,25 @@ use super::by_name;
 
 #[derive(Args)]
 pub struct Source {
-    /// A mesh file (.obj .off .ply .stl), a volume file (.vol .longvol .pgm3d .npy .raw), or a generated surface such as
-    /// `graph:cos+cos?n=33`
+    /// Mesh file (.obj .off .ply .stl), volume file (.vol .longvol .pgm3d .npy .raw), or generated
+    /// surface
+    ///
+    /// A generated surface has a name such as `graph:cos+cos?n=33`; `riemap list` has all of them.
     #[arg(value_name = "MESH")]
     pub mesh: String,
-    /// Voxels of larger values are inside [default: 0]
+    /// Threshold of a volume: voxels with larger values are inside [default: 0]
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Volumes")]
     threshold: Option<f64>,
-    /// Raw volumes: the extent in voxels
+    /// Extent of a raw volume, in voxels
     #[arg(long, value_name = "XxYxZ", value_parser = extent, help_heading = "Volumes")]
     size: Option<Extent>,
-    /// Raw volumes: the type of a voxel, u8 or u16 (little-endian)
+    /// Type of the voxels of a raw volume: u8, u16 (little-endian)
     #[arg(long = "type", value_name = "TYPE", value_parser = by_name::<Sample>, help_heading = "Volumes")]
     sample: Option<Sample>,
-    /// Interior adjacency at an edge where four surfels meet: 6, the two inner voxels are apart; 18, they are joined [default: 6]
+    /// Interior adjacency of voxels that share only an edge: 6 (separate), 18 (joined) [default: 6]
     #[arg(long, value_parser = by_name::<Adjacency>, help_heading = "Volumes")]
     adjacency: Option<Adjacency>,
-    /// The component of the boundary, from 0, the one with most surfels [default: 0]
+    /// Component of the boundary of a volume, from 0, the largest [default: 0]
     #[arg(long, value_name = "K", help_heading = "Volumes")]
     component: Option<usize>,
 }
@@ -36,7 +39,7 @@ pub struct Source {
 struct Extent([usize; 3]);
 
 impl Source {
-    /// Reads or generates it.
+    /// Reads or generates the surface.
     pub fn open(&self) -> Result<Input> {
         let options = InputOptions {
             threshold: self.threshold,

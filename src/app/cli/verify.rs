@@ -15,7 +15,8 @@ use crate::app::measure::stopwatch::Stopwatch;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Triangle meshes; without any, a built-in set of generated surfaces with many obtuse triangles
+    /// Triangle meshes; without any, a built-in set of generated surfaces with many obtuse
+    /// triangles
     #[arg(value_name = "MESH")]
     meshes: Vec<String>,
     /// Print one JSON object

@@ -1,4 +1,4 @@
-//! Maps of other programs, put where a map of ours would be, so that the same code measures both.
+//! Maps of other programs in the form of our own, so that the same code measures both.
 
 pub use crate::geometry::moebius::{Moebius, MoebiusError};
 
@@ -13,27 +13,27 @@ use crate::surface::cut::Opening;
 
 /// A function of another program.
 pub struct Peer {
-    /// As experiments name it.
+    /// Its name in experiments.
     pub name: &'static str,
-    /// One line.
+    /// Its description, in one line.
     pub description: &'static str,
-    /// Whether the boundary is held on the unit circle.
+    /// Whether the boundary is pinned on the unit circle.
     pub on_circle: bool,
     given: Given,
     call: Call,
 }
 
-/// What is held, and where, to an answer.
+/// A call: from the pinned vertices and their places to the answer.
 type Call = fn(&Environment, &Request) -> Result<Answer, LibiglError>;
 
-/// Of which vertices the peer is told a place: those of the circle by arc length.
+/// Vertices that are given to a peer with their places on the circle by arc length.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Given {
-    /// The boundary, which stays there.
+    /// The boundary, which is pinned.
     Boundary,
-    /// The boundary, to start from.
+    /// The boundary, from which the peer starts.
     Start,
-    /// Two, as far from each other along the boundary as can be, which stay there.
+    /// Two pinned vertices, as far from each other along the boundary as possible.
     TwoPoints,
 }
 
@@ -49,10 +49,10 @@ struct Answer {
     seconds_cpu: f64,
 }
 
-/// As many as the authors of SLIM show to be enough.
+/// Number of iterations that the authors of SLIM show to be enough.
 const SLIM_ITERATIONS: usize = 20;
 
-/// Every peer.
+/// All peers.
 pub static PEERS: &[Peer] = &[
     Peer {
         name: "libigl-harmonic",
@@ -86,34 +86,35 @@ pub static PEERS: &[Peer] = &[
     },
 ];
 
-/// The peer of that name.
+/// Returns the peer of that name.
 pub fn peer(name: &str) -> Option<&'static Peer> {
     PEERS.iter().find(|peer| peer.name == name)
 }
 
-/// No map of a peer.
+/// A peer's map that could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PeerError {
-    /// Not a disc, or another fault of the surface.
+    /// The surface is not a disc, or has another defect.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// libigl's side failed.
+    /// libigl failed.
     #[error(transparent)]
     Libigl(#[from] LibiglError),
-    /// A quad mesh.
+    /// The faces are not triangles.
     #[error("libigl maps triangles; the faces have {corners} corners: triangulate them")]
     NotTriangles {
-        /// Corners of each face.
+        /// Number of corners of each face.
         corners: usize,
     },
 }
 
 impl Peer {
-    /// The peer's map of `input`, opened to a disc as `opening` says, measured, and its CPU seconds. Dual vertices, which it knows nothing of, are put at the
-    /// barycentres of the image faces and the midpoints of the image's boundary edges.
+    /// Returns the peer's map of `input`, opened to a disc by `opening`, with its distortion and
+    /// its processor seconds. Dual vertices, which the peer does not have, are placed at the
+    /// barycentres of the faces and the midpoints of the boundary edges of the image.
     ///
     /// # Errors
-    /// A surface that is no disc of triangles; a peer that fails.
+    /// The surface is not a disc of triangles, or the peer fails.
     pub fn map(
         &self,
         input: &Input,
@@ -144,7 +145,8 @@ impl Peer {
             fixed.hold(v, Complex64::new(x, y));
         }
         let z = uv.iter().map(|&[x, y]| Complex64::new(x, y)).collect();
-        // What is held is vertices of the mesh: the boundary's dual vertices go to the edges of the image.
+        // What is held is vertices of the mesh: the boundary's dual vertices go to the edges of the
+        // image.
         let z = mapped.domain.with_dual_vertices(z, &fixed);
         let map = Map { on_circle: self.on_circle, ..Map::solved(self.name, z, fixed, None) };
         Ok((mapped.with(map), seconds_cpu))

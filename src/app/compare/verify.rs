@@ -1,5 +1,5 @@
-//! The cotan equivalence, checked live: with circumcentres and the mesh's boundary held, the vertices of the mesh are
-//! where libigl's harmonic map puts them.
+//! The cotan equivalence, checked live: with circumcentres and the boundary of the mesh pinned,
+//! system (2) puts the vertices of the mesh where libigl's harmonic map puts them.
 
 use num_complex::Complex64;
 
@@ -11,10 +11,11 @@ use crate::surface::Surface;
 use crate::surface::oriented_mesh::{NotADisc, OrientedMesh};
 use crate::surface::topology::diagnosis::Diagnosis;
 
-/// The largest difference to libigl, relative to the radius of the disc, that passes.
+/// Largest difference from libigl that passes, relative to the radius of the disc.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Generated surfaces with many obtuse triangles, 500 to 100 000 vertices; up to a third of the weights negative.
+/// Generated surfaces of 500 to 100 000 vertices with many obtuse triangles; up to a third of the
+/// weights are negative.
 pub const SURFACES: [&str; 7] = [
     "graph:cos+cos?n=22&mesh=triangle",
     "graph:saddle?n=23&mesh=triangle&diagonal=same&jitter=0.1&amplitude=10",
@@ -25,56 +26,57 @@ pub const SURFACES: [&str; 7] = [
     "graph:saddle?n=317&mesh=delaunay&amplitude=6&seed=7",
 ];
 
-/// Two maps of one mesh, compared.
+/// The comparison of two maps of one mesh.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// Vertices of the mesh.
+    /// Number of vertices.
     pub vertices: usize,
-    /// Its inner edges.
+    /// Number of interior edges.
     pub interior_edges: usize,
-    /// Inner edges with ½(cot α + cot β) < 0, as libigl counts them.
+    /// Number of interior edges with ½(cot α + cot β) < 0, as libigl counts them.
     pub negative_weights: usize,
     /// max |z − z'| over the vertices, relative to the radius of the disc.
     pub difference: f64,
-    /// What libigl said.
+    /// libigl's map and its times.
     pub libigl: Harmonic,
-    /// The backend that made our map.
+    /// Name of the solver of our map.
     pub backend: &'static str,
 }
 
-/// No comparison.
+/// A comparison that could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum VerifyError {
-    /// Not a disc.
+    /// The surface is not a disc.
     #[error(transparent)]
     NotADisc(#[from] NotADisc),
-    /// A quad mesh.
+    /// The faces are not triangles.
     #[error("the equivalence is about triangle meshes; the faces have {corners} corners: triangulate them")]
     NotTriangles {
-        /// Corners of each face.
+        /// Number of corners of each face.
         corners: usize,
     },
-    /// Our side failed.
+    /// Our map failed.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// libigl's side failed.
+    /// libigl failed.
     #[error(transparent)]
     Libigl(#[from] LibiglError),
 }
 
-/// A triangle mesh mapped to the disc by system (2) with circumcentres, boundary on the unit circle by arc length.
+/// A map of a triangle mesh to the disc by system (2) with circumcentres, with the boundary pinned
+/// on the unit circle by arc length.
 #[derive(Clone, Debug)]
 pub struct CotanMap {
     /// The mesh.
     pub disc: OrientedMesh,
-    /// Its map; the vertices of the mesh come first.
+    /// The map, which begins with the vertices of the mesh.
     pub map: Map,
 }
 
-/// Our side.
+/// Returns our map.
 ///
 /// # Errors
-/// A surface that is not a disc of triangles; a solver that fails.
+/// The surface is not a disc of triangles, or the solver fails.
 pub fn cotan_map(surface: &Surface, watch: &mut dyn Observer) -> Result<CotanMap, VerifyError> {
     watch.phase(Phase::Assemble);
     let disc = OrientedMesh::new(surface, &Diagnosis::new(surface))?;
@@ -87,10 +89,10 @@ pub fn cotan_map(surface: &Surface, watch: &mut dyn Observer) -> Result<CotanMap
     Ok(CotanMap { disc, map })
 }
 
-/// libigl's side, with the boundary where ours has it, and the difference.
+/// Computes libigl's map with the same boundary, and returns the difference.
 ///
 /// # Errors
-/// libigl's.
+/// Those of libigl.
 pub fn compare(ours: &CotanMap, libigl: &Environment) -> Result<Comparison, VerifyError> {
     let CotanMap { disc, map } = ours;
     let values: Vec<[f64; 2]> = disc.boundary.iter().map(|&v| [map.z[v as usize].re, map.z[v as usize].im]).collect();
@@ -108,7 +110,7 @@ pub fn compare(ours: &CotanMap, libigl: &Environment) -> Result<Comparison, Veri
 }
 
 impl Comparison {
-    /// Whether both maps are the same to [`TOLERANCE`].
+    /// Whether the maps agree to [`TOLERANCE`].
     pub fn is_equal(&self) -> bool {
         self.difference <= TOLERANCE
     }

@@ -1,6 +1,7 @@
-//! The middle of some numbers.
+//! The median.
 
-/// The middle value; of an even number the mean of the two in the middle. `None` of none.
+/// Returns the median, of an even number of values the mean of the two in the middle; `None` of no
+/// values.
 pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);

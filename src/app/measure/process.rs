@@ -1,4 +1,4 @@
-//! One process, watched: what it takes, and an end where it takes too long or is not to go on.
+//! Runs one process, measures its time and memory, and stops it at a time limit or on request.
 
 use std::fs::File;
 use std::io::{self, Read, Seek};
@@ -11,49 +11,51 @@ use crate::app::measure::stopwatch::{children_cpu_seconds, peak_bytes_of};
 /// How a process ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// By itself.
+    /// The process exited.
     Itself(ExitStatus),
-    /// It was over its time.
+    /// It was stopped at the time limit.
     OverTime,
-    /// It was to stop.
+    /// It was stopped on request.
     Stopped,
 }
 
-/// What ends a process before it ends itself.
+/// Conditions that stop a process.
 pub struct Bounds<'a> {
-    /// By the clock.
+    /// Limit of the wall-clock time.
     pub limit: Duration,
-    /// Whether it is to stop.
+    /// Whether a stop has been requested.
     pub stop: &'a dyn Fn() -> bool,
-    /// Whether the programs that it calls end with it. It then has a group of its own, which a terminal's Ctrl-C does not reach.
+    /// Whether the programs that it calls are stopped with it. It then has a process group of its
+    /// own, which Ctrl-C on a terminal does not reach.
     pub with_its_own: bool,
 }
 
 /// A process that has ended.
 #[derive(Debug)]
 pub struct Ended {
-    /// How.
+    /// Why it ended.
     pub end: End,
-    /// Seconds by the clock, from its start to its end.
+    /// Wall-clock seconds from its start to its end.
     pub wall: f64,
-    /// Processor seconds, all threads, user and system; `None` where the system does not say. Those of other children of this process
-    /// that end meanwhile are in it.
+    /// User and system seconds of all threads; `None` if the system does not report them. Other
+    /// children of this process that end meanwhile are included.
     pub cpu: Option<f64>,
-    /// The most memory seen, in bytes; a short last rise may be missed.
+    /// Peak memory in bytes, as sampled; a short last rise may be missed.
     pub peak_bytes: Option<u64>,
-    /// What it printed.
+    /// Its standard output.
     pub stdout: String,
-    /// What it said on the standard error stream.
+    /// Its standard error stream.
     pub stderr: String,
 }
 
-/// How often the process is looked at: finely at first, that the wall time of short ones is right.
+/// Intervals between two looks at the process, in its first second and later: short ones need an
+/// accurate wall time.
 const LOOK: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(10)];
 
-/// Runs `command` to its end, or to where `bounds` end it.
+/// Runs `command` until it exits or `bounds` stop it.
 ///
 /// # Errors
-/// The system cannot start or watch it.
+/// The system cannot start or observe the process.
 pub fn watch(command: &mut Command, bounds: &Bounds) -> io::Result<Ended> {
     let (mut stdout, mut stderr) = (tempfile::tempfile()?, tempfile::tempfile()?);
     command.stdin(Stdio::null()).stdout(stdout.try_clone()?).stderr(stderr.try_clone()?);

@@ -26,41 +26,44 @@ use crate::app::cli::source::Source;
 pub struct Arguments {
     #[command(flatten)]
     pub(super) source: Source,
-    /// Write the mesh with the map as texture coordinates (.obj, .ply), or a model with a checkerboard (.glb)
+    /// Write the mesh with the map as texture coordinates (.obj, .ply), or a model with a
+    /// checkerboard (.glb)
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(super) output: Option<PathBuf>,
     /// Behaviour of the boundary: circle, free, fixed, periodic [default: circle]
     ///
-    /// circle: the boundary slides on the unit circle (energy H + C). free: the boundary edges keep their lengths
-    /// (H + L'). fixed: the boundary is pinned on --shape or at --positions (H). periodic: a closed surface of genus 1
-    /// is mapped with two periods (H).
+    /// circle: the boundary slides on the unit circle (energy H + C). free: the boundary edges keep
+    /// their lengths (H + L'). fixed: the boundary is pinned on --shape or at --positions (H).
+    /// periodic: a closed surface of genus 1 is mapped with two periods (H).
     #[arg(long, value_parser = by_name::<BoundaryName>, help_heading = "Boundary and constraints")]
     pub(super) boundary: Option<BoundaryName>,
     /// Cut the surface open to a disc
     ///
-    /// A closed surface, or one with handles or several boundary loops, is cut along short lines. The output then has
-    /// texture coordinates per corner.
+    /// A closed surface, or one with handles or several boundary loops, is cut along short lines.
+    /// The output then has texture coordinates per corner.
     #[arg(long, help_heading = "Surface")]
     pub(super) cut: bool,
     /// Fill the holes of the surface for the map
     ///
-    /// All boundary loops but the longest are filled, with --boundary periodic all of them. The faces that fill them
-    /// are not written.
+    /// All boundary loops but the longest are filled, with --boundary periodic all of them. The
+    /// faces that fill them are not written.
     #[arg(long, help_heading = "Surface")]
     pub(super) fill_holes: bool,
     /// Leave out face F, counted from 0; repeatable
     #[arg(long, value_name = "F", help_heading = "Surface")]
     pub(super) remove_face: Vec<u32>,
-    /// Give faces without area a shape of relative HEIGHT, so that they can be mapped [default HEIGHT: 0.01]
+    /// Give faces without area a shape of relative HEIGHT, so that they can be mapped [default
+    /// HEIGHT: 0.01]
     ///
-    /// Such faces are refused otherwise. Each is mapped as if its third vertex were lifted off its longest edge to
-    /// HEIGHT times the length of that edge; a quad, as a rectangle of these sides. The output keeps their positions.
+    /// Such faces are refused otherwise. Each is mapped as if its third vertex were lifted off its
+    /// longest edge to HEIGHT times the length of that edge; a quad, as a rectangle of these sides.
+    /// The output keeps their positions.
     #[arg(long, value_name = "HEIGHT", num_args = 0..=1, require_equals = true, default_missing_value = "0.01", value_parser = height, help_heading = "Surface")]
     pub(super) surrogate: Option<f64>,
     /// Energy, instead of that of --boundary, such as "H + 0.5 L + A"
     ///
-    /// The terms are H, C, A, L, Lb (the paper's L'), MIPS and SD, each with an optional coefficient; see `riemap help
-    /// energies`.
+    /// The terms are H, C, A, L, Lb (the paper's L'), MIPS and SD, each with an optional
+    /// coefficient; see `riemap help energies`.
     #[arg(long, value_name = "E", value_parser = Expression::from_str, help_heading = "Energy")]
     pub(super) energy: Option<Expression>,
     /// Shape on which a fixed boundary is pinned by arc length: circle, square [default: circle]
@@ -73,8 +76,9 @@ pub struct Arguments {
     pub(super) positions: Option<PathBuf>,
     /// Lengths that the boundary edges of a free map are to have
     ///
-    /// The file has one number per line in the order of the boundary (see `riemap info MESH --boundary`), or lines
-    /// `v w number`. After a first line `factors`, the numbers are multiples of the lengths on the surface.
+    /// The file has one number per line in the order of the boundary (see `riemap info MESH
+    /// --boundary`), or lines `v w number`. After a first line `factors`, the numbers are multiples
+    /// of the lengths on the surface.
     #[arg(long, value_name = "FILE", help_heading = "Boundary and constraints")]
     pub(super) boundary_lengths: Option<PathBuf>,
     /// Pin vertex V, counted from 0, at (X, Y); repeatable
@@ -82,23 +86,26 @@ pub struct Arguments {
     /// Pins are added to a fixed boundary; on a circle they replace the points of --fix.
     #[arg(long, value_name = "V=X,Y", value_parser = pin, allow_hyphen_values = true, help_heading = "Boundary and constraints")]
     pub(super) pin: Vec<Pin>,
-    /// Boundary vertices that a fixed boundary pins: whole, primal [default: whole; with circumcentres primal]
+    /// Boundary vertices that a fixed boundary pins: whole, primal [default: whole; with
+    /// circumcentres primal]
     ///
-    /// whole: all boundary vertices of the quad graph; the equations are solved in least squares. primal: the boundary
-    /// vertices of the mesh and one dual vertex; the system is square and solved exactly.
+    /// whole: all boundary vertices of the quad graph; the equations are solved in least squares.
+    /// primal: the boundary vertices of the mesh and one dual vertex; the system is square and
+    /// solved exactly.
     #[arg(long, value_name = "WHICH", value_parser = by_name::<Hold>, help_heading = "Boundary and constraints")]
     pub(super) hold: Option<Hold>,
     /// Weights of a convex combination map, with --boundary fixed
     ///
-    /// Every interior vertex is then the mean of its neighbours by these weights, instead of minimising H. `riemap
-    /// list` describes them.
+    /// Every interior vertex is then the mean of its neighbours by these weights, instead of
+    /// minimising H. `riemap list` describes them.
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EDGE_WEIGHTS.iter().map(|w| w.name)), help_heading = "Boundary and constraints")]
     pub(super) weights: Option<String>,
     /// Map that replaces one with flipped faces: auto, best-qc, one-to-one, off [default: auto]
     ///
-    /// auto: a circle or free map with flipped faces, or a circle map with a mean σ1/σ2 above 2, is replaced by one
-    /// without flipped faces. best-qc: the map of lower σ1/σ2 is taken. one-to-one: free maps must not overlap either.
-    /// off: the conformal map is kept, as it is beside --energy and --pin.
+    /// auto: a circle or free map with flipped faces, or a circle map with a mean σ1/σ2 above 2, is
+    /// replaced by one without flipped faces. best-qc: the map of lower σ1/σ2 is taken. one-to-one:
+    /// free maps must not overlap either. off: the conformal map is kept, as it is beside --energy
+    /// and --pin.
     #[arg(long, value_parser = by_name::<ValidName>, help_heading = "Solver")]
     pub(super) valid: Option<ValidName>,
     /// Number of boundary points that a circle map pins: 3, or 2 as in the paper [default: 3]
@@ -109,8 +116,8 @@ pub struct Arguments {
     pub(super) keep_order: bool,
     /// Map from which a minimisation starts: auto, circle
     ///
-    /// auto: the free map if the energy has lengths or areas, otherwise the circle. circle: the boundary on a circle by
-    /// arc length, as in the paper.
+    /// auto: the free map if the energy has lengths or areas, otherwise the circle. circle: the
+    /// boundary on a circle by arc length, as in the paper.
     #[arg(long, default_value = "auto", value_parser = by_name::<Start>, help_heading = "Solver")]
     pub(super) start: Start,
     /// Weights of the energies: integral, unit
@@ -124,18 +131,20 @@ pub struct Arguments {
     /// Dual vertex of boundary edges: midpoint, foot (of the perpendicular from the dual point)
     #[arg(long, default_value = "midpoint", value_parser = by_name::<BoundaryDual>, help_heading = "Quad graph")]
     pub(super) boundary_dual: BoundaryDual,
-    /// Estimator of the normals from which ρ of quads is computed [default: digital surfaces auto; meshes none]
+    /// Estimator of the normals from which ρ of quads is computed [default: digital surfaces auto;
+    /// meshes none]
     ///
     /// Parameters follow the name, as in "hat?radius=4"; `riemap list` describes the estimators.
     #[arg(long, value_name = "NAME", value_parser = NormalSpec::from_str, conflicts_with = "rho", help_heading = "Quad graph")]
     pub(super) normals: Option<NormalSpec>,
-    /// Lengths and areas at rest beside --normals: projected (on the tangent planes), unit (those of the surfels)
+    /// Lengths and areas at rest beside --normals: projected (on the tangent planes), unit (those
+    /// of the surfels)
     #[arg(long, default_value = "projected", value_parser = by_name::<RestSource>, help_heading = "Quad graph")]
     pub(super) rest: RestSource,
     /// Source of ρ of quads: auto, positions, normals
     ///
-    /// positions: the diagonals in space. normals: the diagonals projected along the normals of the file. auto:
-    /// positions for meshes, estimated normals for digital surfaces.
+    /// positions: the diagonals in space. normals: the diagonals projected along the normals of the
+    /// file. auto: positions for meshes, estimated normals for digital surfaces.
     #[arg(long, default_value = "auto", value_parser = by_name::<RhoSource>, help_heading = "Quad graph")]
     pub(super) rho: RhoSource,
     /// Solver; `riemap list` describes them
@@ -146,7 +155,8 @@ pub struct Arguments {
     pub(super) tolerance: Option<f64>,
     /// Stop an iteration after N steps [default: the solver's own number]
     ///
-    /// The map reached by then is written, a warning says that it has not converged, and the exit code is 3.
+    /// The map reached by then is written, a warning says that it has not converged, and the exit
+    /// code is 3.
     #[arg(long, value_name = "N", help_heading = "Solver")]
     pub(super) max_iterations: Option<usize>,
     /// Write the energy, its terms, the gradient, the step and the time of every iteration as CSV
@@ -154,8 +164,8 @@ pub struct Arguments {
     pub(super) trace: Option<PathBuf>,
     /// Texture coordinates of a periodic map: conformal, whole
     ///
-    /// conformal: those of the map, with the periods 1 and τ. whole: sheared slightly (by 5 % at most), so that both
-    /// periods are whole numbers and a texture that repeats has no seam.
+    /// conformal: those of the map, with the periods 1 and τ. whole: sheared slightly (by 5 % at
+    /// most), so that both periods are whole numbers and a texture that repeats has no seam.
     #[arg(long, default_value = "conformal", value_parser = by_name::<Tiling>, help_heading = "Output")]
     pub(super) tiling: Tiling,
     /// Write the linear system (2) as a complex matrix in Matrix Market format
@@ -170,7 +180,8 @@ pub struct Arguments {
     /// Draw the surface, shaded, with the checkerboard of the map
     #[arg(long, value_name = "FILE.png", help_heading = "Output")]
     pub(super) texture: Option<PathBuf>,
-    /// Outputs of a map that a signal stops: keep (existing files stay, nothing is written), write (the best map so far)
+    /// Outputs of a map that a signal stops: keep (existing files stay, nothing is written), write
+    /// (the best map so far)
     #[arg(
         long,
         value_name = "WHICH",

@@ -54,7 +54,8 @@ pub(super) fn without_effect(arguments: &Arguments, options: &MapOptions, mapped
     idle.into_iter().chain(of_valid).filter(|(is_idle, _)| *is_idle).map(|(_, reason)| reason).collect()
 }
 
-/// Returns, for `--valid` and for options that a replaced map ignores, whether the option has no effect, and the reason.
+/// Returns, for `--valid` and for options that a replaced map ignores, whether the option has no
+/// effect, and the reason.
 fn valid_without_effect(arguments: &Arguments, options: &MapOptions, repaired: bool) -> [(bool, &'static str); 8] {
     let given = arguments.valid.is_some_and(|valid| valid != ValidName::Off);
     let one_to_one = arguments.valid == Some(ValidName::OneToOne);

@@ -70,7 +70,8 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     if interrupt::requested() {
         return Err(Ended::BySignal(format!("{}; the best map so far was written", interrupt::name())).into());
     }
-    // Without --max-iterations the library returns an error instead of a map that has not converged.
+    // Without --max-iterations the library returns an error instead of a map that has not
+    // converged.
     if mapped.map.ending == Ending::Minimised(Status::MaxIterations) && arguments.max_iterations.is_some() {
         return Err(Ended::AtLimit { iterations: mapped.map.iterations }.into());
     }

@@ -100,8 +100,8 @@ pub(super) fn write_all(
     Ok(())
 }
 
-/// Warns if a periodic map is injective and its texture coordinates as written are not. Those of other maps are the
-/// doubles of the map itself.
+/// Warns if a periodic map is injective and its texture coordinates as written are not. Those of
+/// other maps are the doubles of the map itself.
 fn warn_of_written(path: &Path, input: &Input, mapped: &Mapped, texture: &TextureCoordinates) {
     if mapped.torus.is_none() || !mapped.validity.is_one_to_one() {
         return;
@@ -126,7 +126,8 @@ fn system_comments(source: &str, disc: &OrientedMesh, map: &Map) -> Vec<String> 
     comments
 }
 
-/// Writes one line per iteration. A map may have several stages, each of which begins with iteration 0.
+/// Writes one line per iteration. A map may have several stages, each of which begins with
+/// iteration 0.
 fn write_trace(out: &mut dyn Write, trace: &[Traced]) -> std::io::Result<()> {
     let mut names: Vec<&str> = Vec::new();
     for name in trace.iter().flat_map(|t| t.iteration.terms.iter().map(|(name, _)| *name)) {

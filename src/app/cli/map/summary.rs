@@ -12,8 +12,8 @@ use crate::solver::Status;
 use super::validity::faults;
 use crate::app::cli::plural;
 
-/// Writes warnings and notes about the map to the standard error stream: non-convergence, replaced maps, faults, and
-/// the options that may help.
+/// Writes warnings and notes about the map to the standard error stream: non-convergence, replaced
+/// maps, faults, and the options that may help.
 pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
     let Mapped { map, distortion, validity, .. } = mapped;
     if options.pinned_points() == PinnedPoints::Two
@@ -106,14 +106,16 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
     }
 }
 
-/// A minimisation converges slowly or not at all if the scales of its parts differ by more than this.
+/// A minimisation converges slowly or not at all if the scales of its parts differ by more than
+/// this.
 const CROWDED: f64 = 1e-6;
 
-/// Relative scale below which double precision no longer resolves the vertices of a part, except near 0, so that a
-/// minimisation appears to have converged.
+/// Relative scale below which double precision no longer resolves the vertices of a part, except
+/// near 0, so that a minimisation appears to have converged.
 const END_OF_DOUBLES: f64 = 1e-13;
 
-/// Explains that parts of a map are much smaller than others, and what helps; `None` if they are not.
+/// Explains that parts of a map are much smaller than others, and what helps; `None` if they are
+/// not.
 fn crowding(mapped: &Mapped) -> Option<String> {
     let smallest = mapped.distortion.smallest_scale.filter(|&scale| scale < CROWDED)?;
     let help = match mapped.map.on_circle {

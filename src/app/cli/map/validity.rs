@@ -53,8 +53,8 @@ fn named(one: &str, many: &str, of: &[u32]) -> String {
     format!("{} {}{more}", if of.len() == 1 { one } else { many }, shown.join(", "))
 }
 
-/// Checks texture coordinates as they are written, one pair for every corner of `surface`: those of periodic maps are
-/// moved and rounded.
+/// Checks texture coordinates as they are written, one pair for every corner of `surface`: those of
+/// periodic maps are moved and rounded.
 pub(super) fn of_written(disc: &OrientedMesh, surface: &Surface, pairs: &[[f64; 2]]) -> Validity {
     let mut at = vec![Complex64::ZERO; disc.faces.corners().len()];
     for (&corner, &[x, y]) in disc.corners_of(surface).iter().zip(pairs) {

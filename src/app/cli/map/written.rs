@@ -1,4 +1,5 @@
-//! The report as `--report` writes it: the library's record, the program's version, and the options as understood.
+//! The report as `--report` writes it: the library's record, the program's version, and the options
+//! as understood.
 
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -29,8 +30,8 @@ impl<'a> WrittenReport<'a> {
     }
 }
 
-/// Returns the options, defaults included, by the keys of the `[map]` table of an experiment. Keys that the boundary does
-/// not have are absent; a key that is null was not given.
+/// Returns the options, defaults included, by the keys of the `[map]` table of an experiment. Keys
+/// that the boundary does not have are absent; a key that is null was not given.
 fn as_keys(options: &MapOptions) -> Value {
     // No `..`: a new option does not compile before it is in the report.
     let MapOptions {
@@ -105,7 +106,8 @@ fn places(pins: &[Pin]) -> Value {
     pins.iter().map(|pin| json!({ "vertex": pin.vertex, "place": pin.place })).collect()
 }
 
-/// Returns boundary lengths as `{ lengths: […] }` or `{ factors: […] }`, whose entries are numbers or `[v, w, number]`.
+/// Returns boundary lengths as `{ lengths: […] }` or `{ factors: […] }`, whose entries are numbers
+/// or `[v, w, number]`.
 fn numbers(lengths: &BoundaryLengths) -> Value {
     let values: Value = match &lengths.values {
         PerEdge::InOrder(values) => json!(values),
@@ -122,7 +124,8 @@ mod tests {
     use super::*;
     use crate::map::{FlatOptions, PinnedPoints};
 
-    /// The keys without those that were not given, and those of pins and lengths, as the options that they stand for.
+    /// The keys without those that were not given, and those of pins and lengths, as the options
+    /// that they stand for.
     fn read(keys: &Value) -> MapOptions {
         let Value::Object(map) = keys else { panic!("an object") };
         let given: serde_json::Map<_, _> =

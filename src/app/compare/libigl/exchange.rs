@@ -7,20 +7,20 @@ use std::path::{Path, PathBuf};
 
 const SCRIPT: &str = include_str!("calls.py");
 
-/// The numbers of an array to hand over, row after row.
+/// The numbers of an array that is passed to libigl, row by row.
 pub(super) enum Numbers<'a> {
     Real(&'a [f64]),
     Index(&'a [u32]),
 }
 
-/// A named array to hand over; one column arrives as a vector.
+/// A named array that is passed to libigl; a single column arrives as a vector.
 pub(super) struct Array<'a> {
     pub name: &'static str,
     pub columns: usize,
     pub numbers: Numbers<'a>,
 }
 
-/// What a function of `calls.py` gave back.
+/// The answer of a function of `calls.py`.
 #[derive(Debug)]
 pub(super) struct Answer {
     function: &'static str,
@@ -28,7 +28,7 @@ pub(super) struct Answer {
     arrays: Vec<(String, usize, Vec<f64>)>,
 }
 
-/// Runs `function` of `calls.py` in a process of its own.
+/// Runs `function` of `calls.py` in its own process.
 pub(super) fn call(
     environment: &Environment,
     function: &'static str,
@@ -107,18 +107,18 @@ impl Array<'_> {
 }
 
 impl Answer {
-    /// The field `name`, a number.
+    /// Returns the number in the field `name`.
     pub fn number(&self, name: &str) -> Result<f64, LibiglError> {
         self.fields[name].as_f64().ok_or_else(|| self.lacks("number", name))
     }
 
-    /// The field `name`, a count.
+    /// Returns the count in the field `name`.
     pub fn count(&self, name: &str) -> Result<usize, LibiglError> {
         let count = self.fields[name].as_u64().and_then(|n| usize::try_from(n).ok());
         count.ok_or_else(|| self.lacks("count", name))
     }
 
-    /// The array `name`, `rows × N`.
+    /// Returns the array `name`, `rows × N`.
     pub fn rows<const N: usize>(&self, name: &str, rows: usize) -> Result<Vec<[f64; N]>, LibiglError> {
         let found = self
             .arrays

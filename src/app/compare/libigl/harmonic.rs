@@ -2,35 +2,37 @@ use super::exchange::{Array, Numbers, call};
 use super::{Environment, LibiglError};
 use serde_json::json;
 
-/// A weight ½(cot α + cot β) above −ZERO_WEIGHT counts as zero: cotangents have no unit, and those of two angles that
-/// add up to π come out as some 1e-16 of either sign.
+/// Weights ½(cot α + cot β) above −ZERO_WEIGHT are not counted as negative: the cotangents of two
+/// angles with the sum π add up to some 1e-16 of either sign.
 const ZERO_WEIGHT: f64 = 1e-12;
 
-/// libigl's harmonic map and what it took.
+/// libigl's harmonic map and its times.
 #[derive(Clone, Debug)]
 pub struct Harmonic {
     /// The map (`nv × 2`).
     pub uv: Vec<[f64; 2]>,
-    /// Processor time of `igl.harmonic` alone, all threads together: assembly, factorisation and solve.
+    /// Processor seconds of all threads of `igl.harmonic`: assembly, factorisation and solve.
     pub seconds_cpu: f64,
-    /// The same by the clock.
+    /// Wall-clock seconds of the same.
     pub seconds_wall: f64,
-    /// Edges with two triangles.
+    /// Number of edges with two triangles.
     pub interior_edges: usize,
-    /// Those whose weight ½(cot α + cot β) in `igl.cotmatrix` is below −1e-12.
+    /// Number of these edges whose weight ½(cot α + cot β) in `igl.cotmatrix` is below −1e-12.
     pub negative_weights: usize,
     /// Version of libigl's Python package.
     pub version: String,
 }
 
-/// The map uv with Σ_j ½(cot α_ij + cot β_ij)(uv_j − uv_i) = 0 at every vertex i but the `fixed` ones, where it is
-/// `values`: libigl's `harmonic(V, F, b, bc, 1)`.
+/// Σ_j ½(cot α_ij + cot β_ij)(uv_j − uv_i) = 0 at every vertex i except the `fixed` ones, where uv
+/// has the given `values`. Calls libigl's `harmonic(V, F, b, bc, 1)`.
 ///
-/// `positions` (`nv × 3`), `triangles` (`nf × 3`), `fixed` (`nb`, any order, none twice), `values` (`nb × 2`).
+/// `positions` (`nv × 3`), `triangles` (`nf × 3`), `fixed` (`nb`, in any order, none twice),
+/// `values` (`nb × 2`).
 ///
-/// Errors: an index that does not exist, a vertex fixed twice, a number that is not finite, a vertex that no path of
-/// edges joins to a fixed one (libigl would crash on some of these and answer zeros on others); libigl's own failure,
-/// with its message.
+/// # Errors
+/// An index that does not exist, a vertex fixed twice, a number that is not finite, or a vertex
+/// without a path of edges to a fixed one (libigl crashes on some of these, and returns zeros for
+/// others); a failure of libigl, with its message.
 pub fn harmonic(
     environment: &Environment,
     positions: &[[f64; 3]],
@@ -53,7 +55,7 @@ pub fn harmonic(
     })
 }
 
-/// The arrays of a request for a map of a mesh of which some vertices are given places.
+/// Returns the arrays of a call for a map of a mesh with fixed vertices.
 pub(super) fn arrays<'a>(
     positions: &'a [[f64; 3]],
     triangles: &'a [[u32; 3]],
@@ -98,7 +100,8 @@ pub(super) fn check(
     }
 }
 
-/// The first vertex in a component without a `determined` one. Components by union–find with path halving.
+/// Returns the first vertex of a component that has no `determined` vertex, by union–find with path
+/// halving.
 fn first_undetermined(triangles: &[[u32; 3]], mut determined: Vec<bool>) -> Option<usize> {
     let mut parent: Vec<usize> = (0..determined.len()).collect();
     fn root(parent: &mut [usize], mut v: usize) -> usize {

@@ -2,13 +2,13 @@ use super::LibiglError;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// Minor version of the oldest Python 3 in `requirements.txt`.
+/// Minor version of the oldest Python 3 for which `requirements.txt` has packages.
 const OLDEST_MINOR: u32 = 9;
 
-/// Lines of a command's output that are worth showing.
+/// Number of lines of a command's output that are shown.
 const LINES: usize = 12;
 
-/// Works with every Python, also with those too old.
+/// A program that prints the version, in the syntax of every Python.
 const PYTHON_VERSION: &str = "import sys; print('%d.%d.%d' % tuple(sys.version_info[:3]))";
 
 const PACKAGE_VERSIONS: &str = r#"
@@ -23,20 +23,20 @@ print(json.dumps({"python": "%d.%d.%d" % sys.version_info[:3],
     "libigl": version("libigl", "igl"), "numpy": version("numpy"), "scipy": version("scipy")}))
 "#;
 
-/// Versions of what takes part in a comparison; "unknown" where a package does not say.
+/// Versions of the packages in a comparison; "unknown" if a package does not report one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Versions {
-    /// Of the interpreter.
+    /// Version of the interpreter.
     pub python: String,
-    /// Of libigl's Python package.
+    /// Version of libigl's Python package.
     pub libigl: String,
-    /// Of numpy.
+    /// Version of numpy.
     pub numpy: String,
-    /// Of scipy.
+    /// Version of scipy.
     pub scipy: String,
 }
 
-/// A command's output as text: the last lines of both streams together.
+/// Returns the last lines of both output streams of a command.
 pub(super) fn last_lines(output: &Output) -> Vec<String> {
     let text = [&output.stdout[..], b"\n", &output.stderr[..]].concat();
     let text = String::from_utf8_lossy(&text);
@@ -44,7 +44,8 @@ pub(super) fn last_lines(output: &Output) -> Vec<String> {
     lines[lines.len().saturating_sub(LINES)..].iter().map(|line| line.to_string()).collect()
 }
 
-/// The packages' versions in `python`; an error when it does not run or has no libigl.
+/// Returns the versions of the packages in `python`; fails if it does not run or does not have
+/// libigl.
 pub(super) fn versions(python: &Path, isolated: bool) -> Result<Versions, LibiglError> {
     let refuse = |lines| LibiglError::Interpreter { python: python.to_path_buf(), lines };
     let output = command(python, isolated)
@@ -62,7 +63,8 @@ pub(super) fn versions(python: &Path, isolated: bool) -> Result<Versions, Libigl
     }
 }
 
-/// The first interpreter that is new enough: the one named, or else `python3`, then `python`.
+/// Returns the first interpreter that is new enough: the named one, otherwise `python3` or
+/// `python`.
 pub(super) fn find(named: Option<&Path>) -> Result<PathBuf, LibiglError> {
     let candidates = match named {
         Some(python) => vec![python.to_path_buf()],
@@ -94,8 +96,9 @@ fn new_enough(version: &str) -> bool {
     }
 }
 
-/// `python` with no input. Isolated: `PYTHONPATH`, the user's packages and the current folder are not looked at, which
-/// a made environment must not see and an interpreter of the user's own may need.
+/// Returns a command that runs `python` without input. An isolated one ignores `PYTHONPATH`, the
+/// user's packages and the current folder, which our own environment must not see, and an
+/// interpreter of the user may need.
 pub(crate) fn command(python: &Path, isolated: bool) -> Command {
     let mut command = Command::new(python);
     command.stdin(Stdio::null());

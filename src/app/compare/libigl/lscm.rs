@@ -3,25 +3,28 @@ use super::harmonic::{arrays, check, finite};
 use super::{Environment, LibiglError};
 use serde_json::json;
 
-/// libigl's least-squares conformal map and what it took.
+/// libigl's least-squares conformal map and its times.
 #[derive(Clone, Debug)]
 pub struct Lscm {
     /// The map (`nv × 2`).
     pub uv: Vec<[f64; 2]>,
-    /// Processor time of `igl.lscm` alone, all threads together: assembly, factorisation and solve.
+    /// Processor seconds of all threads of `igl.lscm`: assembly, factorisation and solve.
     pub seconds_cpu: f64,
-    /// The same by the clock.
+    /// Wall-clock seconds of the same.
     pub seconds_wall: f64,
     /// Version of libigl's Python package.
     pub version: String,
 }
 
-/// The map uv of least Dirichlet energy − area, boundary free, among those that are `values` at the `fixed` vertices:
-/// libigl's `lscm(V, F, b, bc)`. Two fixed vertices take up the similarities and are enough.
+/// Minimises the Dirichlet energy minus the area with a free boundary among the maps that have the
+/// given `values` at the `fixed` vertices, by libigl's `lscm(V, F, b, bc)`. Two fixed vertices
+/// determine the similarity and suffice.
 ///
-/// `positions` (`nv × 3`), `triangles` (`nf × 3`), `fixed` (`nb ≥ 2`, any order, none twice), `values` (`nb × 2`).
+/// `positions` (`nv × 3`), `triangles` (`nf × 3`), `fixed` (`nb ≥ 2`, in any order, none twice),
+/// `values` (`nb × 2`).
 ///
-/// Errors: as those of [`harmonic`](super::harmonic), and fewer than two fixed vertices.
+/// # Errors
+/// Those of [`harmonic`](super::harmonic), and fewer than two fixed vertices.
 pub fn lscm(
     environment: &Environment,
     positions: &[[f64; 3]],

@@ -3,28 +3,33 @@ use super::harmonic::{arrays, check, finite};
 use super::{Environment, LibiglError};
 use serde_json::json;
 
-/// libigl's scalable locally injective map and what it took.
+/// libigl's scalable locally injective map and its times.
 #[derive(Clone, Debug)]
 pub struct Slim {
     /// The map (`nv × 2`).
     pub uv: Vec<[f64; 2]>,
-    /// Processor time of `igl.slim_precompute` and `igl.slim_solve`, all threads together, without the start.
+    /// Processor seconds of all threads of `igl.slim_precompute` and `igl.slim_solve`, without the
+    /// start.
     pub seconds_cpu: f64,
-    /// The same by the clock.
+    /// Wall-clock seconds of the same.
     pub seconds_wall: f64,
-    /// Whether the harmonic start was folded, so that one with unit weights took its place.
+    /// Whether the harmonic start had flipped faces, and was replaced by one with unit weights.
     pub uniform_start: bool,
     /// Version of libigl's Python package.
     pub version: String,
 }
 
-/// `iterations` steps towards the least symmetric Dirichlet energy Σ area (σ1² + σ2² + σ1⁻² + σ2⁻²), boundary free: libigl's
-/// `slim_precompute`, `slim_solve` (Rabinovich, Poranne, Panozzo, Sorkine-Hornung 2017). The start is what libigl's tutorial takes: harmonic with
-/// the `fixed` boundary at `values`, with unit weights where that folds, scaled to the surface's area.
+/// Σ area (σ1² + σ2² + σ1⁻² + σ2⁻²), the symmetric Dirichlet energy, is reduced in `iterations`
+/// steps with a free boundary by libigl's `slim_precompute` and `slim_solve` (Rabinovich, Poranne,
+/// Panozzo, Sorkine-Hornung 2017). The start is that of libigl's tutorial: the harmonic map with
+/// the `fixed` boundary at `values`, with unit weights if faces flip, scaled to the area of the
+/// surface.
 ///
-/// `positions` (`nv × 3`), `triangles` (`nf × 3`), `fixed` (the boundary, any order, none twice), `values` (`nb × 2`).
+/// `positions` (`nv × 3`), `triangles` (`nf × 3`), `fixed` (the boundary, in any order, none
+/// twice), `values` (`nb × 2`).
 ///
-/// Errors: as those of [`harmonic`](super::harmonic).
+/// # Errors
+/// Those of [`harmonic`](super::harmonic).
 pub fn slim(
     environment: &Environment,
     positions: &[[f64; 3]],

@@ -1,4 +1,4 @@
-//! Clocks: where the time of a run goes, and its iterations.
+//! Clocks: the time of each phase of a run, and its iterations.
 
 mod process;
 
@@ -20,7 +20,7 @@ pub struct Stopwatch {
     terms: bool,
 }
 
-/// Both clocks at once.
+/// A reading of both clocks.
 #[derive(Clone, Copy)]
 struct Reading {
     wall: Instant,
@@ -32,7 +32,7 @@ impl Reading {
         Reading { wall: Instant::now(), cpu: cpu_seconds() }
     }
 
-    /// Seconds of the processor from `earlier` to this.
+    /// Returns the processor seconds since `earlier`.
     fn cpu_since(self, earlier: Reading) -> Option<f64> {
         Some(self.cpu? - earlier.cpu?)
     }
@@ -41,41 +41,42 @@ impl Reading {
 /// An iteration and when it ended.
 #[derive(Clone, Debug)]
 pub struct Traced {
-    /// What the solver said.
+    /// The iteration as the solver reported it.
     pub iteration: Iteration,
     /// Seconds since the run began.
     pub seconds: f64,
 }
 
 impl Stopwatch {
-    /// Begins with reading.
+    /// Starts the clocks; the first phase is reading.
     pub fn start() -> Self {
         let now = Reading::now();
         let (wall, cpu) = (Seconds::default(), Seconds::default());
         Stopwatch { begun: now, last: now, phase: None, wall, cpu, trace: None, terms: false }
     }
 
-    /// The same, keeping every iteration with its energies.
+    /// Starts the clocks, and keeps every iteration with its energies.
     pub fn tracing() -> Self {
         Stopwatch { terms: true, ..Self::counting() }
     }
 
-    /// The same, keeping every iteration with its total energy alone, which costs no time.
+    /// Starts the clocks, and keeps every iteration with its total energy only, which takes no
+    /// extra time.
     pub fn counting() -> Self {
         Stopwatch { trace: Some(Vec::new()), ..Self::start() }
     }
 
-    /// The iterations so far, where they are kept.
+    /// Returns the iterations so far, if they are kept.
     pub fn trace(&self) -> &[Traced] {
         self.trace.as_deref().unwrap_or(&[])
     }
 
-    /// The seconds of all phases so far, by the clock on the wall.
+    /// Returns the wall-clock seconds of all phases so far.
     pub fn seconds(&mut self) -> Seconds {
         self.cost().seconds
     }
 
-    /// What all phases so far have taken.
+    /// Returns the time of all phases so far, and the peak memory.
     pub fn cost(&mut self) -> Cost {
         self.close_phase();
         let total = self.last.wall.duration_since(self.begun.wall).as_secs_f64();
@@ -91,7 +92,7 @@ impl Stopwatch {
     }
 }
 
-/// Where the seconds of a phase are summed up.
+/// Returns the sum to which the seconds of a phase belong.
 fn phase_of(seconds: &mut Seconds, phase: Option<Phase>) -> &mut f64 {
     match phase {
         None => &mut seconds.read,

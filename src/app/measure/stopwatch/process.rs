@@ -1,14 +1,15 @@
-//! What the system has counted of this process and of those that it started.
+//! Processor time and peak memory of this process and its children, as the system counts them.
 
 use std::path::Path;
 
-/// Processor seconds of this process so far, all threads, user and system; `None` where the system does not say.
+/// Returns user and system seconds of all threads of this process so far; `None` if the system does
+/// not report them.
 #[cfg(unix)]
 pub fn cpu_seconds() -> Option<f64> {
     used_by(nix::sys::resource::UsageWho::RUSAGE_SELF)
 }
 
-/// Processor seconds of all processes that this one has started and that have ended.
+/// Returns the processor seconds of all children of this process that have ended.
 #[cfg(unix)]
 pub fn children_cpu_seconds() -> Option<f64> {
     used_by(nix::sys::resource::UsageWho::RUSAGE_CHILDREN)
@@ -21,24 +22,24 @@ fn used_by(who: nix::sys::resource::UsageWho) -> Option<f64> {
     Some(seconds[0] + seconds[1])
 }
 
-/// Not known here.
+/// Returns `None`: this system does not report it.
 #[cfg(not(unix))]
 pub fn cpu_seconds() -> Option<f64> {
     None
 }
 
-/// Not known here.
+/// Returns `None`: this system does not report it.
 #[cfg(not(unix))]
 pub fn children_cpu_seconds() -> Option<f64> {
     None
 }
 
-/// The most memory that this process has held at once, in bytes; Linux says it.
+/// Returns the peak memory of this process in bytes; only Linux reports it.
 pub fn peak_bytes() -> Option<u64> {
     peak_in(Path::new("/proc/self/status"))
 }
 
-/// The same of a process that runs.
+/// Returns the peak memory so far of a running process in bytes.
 pub fn peak_bytes_of(process: u32) -> Option<u64> {
     peak_in(Path::new(&format!("/proc/{process}/status")))
 }
@@ -59,7 +60,8 @@ mod tests {
         let (before, held) = (cpu_seconds().expect("Linux counts"), peak_bytes().expect("Linux counts"));
         let block = vec![1u8; 64 << 20];
         let mut sum = 0u64;
-        // Until it has cost 20 ms, whatever the machine; a clock that stands still ends as a failure.
+        // Until it has cost 20 ms, whatever the machine; a clock that stands still ends as a
+        // failure.
         for round in 0..100_000u64 {
             sum += block.iter().step_by(4096).map(|&x| u64::from(x) + round).sum::<u64>();
             if cpu_seconds().is_some_and(|now| now > before + 0.02) {
