@@ -23,17 +23,17 @@ pub struct Topic {
 
 /// Every topic, in the order in which they are listed.
 pub const TOPICS: &[Topic] = &[
-    topic("maps", "which options give which map", include_str!("topics/maps.md")),
-    topic("formats", "mesh, volume and output formats", include_str!("topics/formats.md")),
-    topic("energies", "the terms of an energy and their weights", include_str!("topics/energies.md")),
-    topic("solvers", "direct and iterative solvers, and when they stop", include_str!("topics/solvers.md")),
-    topic("valid", "flipped faces, overlaps, and the maps that replace them", include_str!("topics/valid.md")),
-    topic("report", "the fields of the JSON report and its schema", include_str!("topics/report.md")),
-    topic("experiments", "experiment files and their results", include_str!("topics/experiments.md")),
-    topic("limits", "what Riemap does not do, or not well", include_str!("topics/limits.md")),
-    topic("bench", "how peers are compared", include_str!("topics/bench.md")),
-    topic("exit-codes", "exit codes and signals", include_str!("topics/exit-codes.md")),
-    topic("install", "shell completions and the man page", include_str!("topics/install.md")),
+    topic("maps", "which options give which map", include_str!("topics/maps.txt")),
+    topic("formats", "mesh, volume and output formats", include_str!("topics/formats.txt")),
+    topic("energies", "the terms of an energy and their weights", include_str!("topics/energies.txt")),
+    topic("solvers", "direct and iterative solvers, and when they stop", include_str!("topics/solvers.txt")),
+    topic("valid", "flipped faces, overlaps, and the maps that replace them", include_str!("topics/valid.txt")),
+    topic("report", "the fields of the JSON report and its schema", include_str!("topics/report.txt")),
+    topic("experiments", "experiment files and their results", include_str!("topics/experiments.txt")),
+    topic("limits", "what Riemap does not do, or not well", include_str!("topics/limits.txt")),
+    topic("bench", "how peers are compared", include_str!("topics/bench.txt")),
+    topic("exit-codes", "exit codes and signals", include_str!("topics/exit-codes.txt")),
+    topic("install", "shell completions and the man page", include_str!("topics/install.txt")),
 ];
 
 const fn topic(name: &'static str, about: &'static str, text: &'static str) -> Topic {
