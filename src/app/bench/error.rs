@@ -25,7 +25,7 @@ pub enum BenchError {
     },
     /// An interpreter does not run.
     #[error(
-        "{} cannot run the peers: {reason}\nName another interpreter of Python 3 with --python, or compare sizes alone with \
+        "{} cannot run the peers: {reason}\nName another interpreter of Python 3 with --python, or measure only riemap with \
          --no-peers.",
         python.display()
     )]
