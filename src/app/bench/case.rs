@@ -1,19 +1,19 @@
-//! What is mapped, and by whom: two tables.
+//! The tables of meshes and of contestants.
 
-/// What is sought. Only maps of one kind are compared.
+/// Kinds of maps. Only maps of one kind are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MapClass {
-    /// The boundary on a circle.
+    /// The boundary is on a circle.
     Circle,
-    /// The boundary free, angles alone count.
+    /// The boundary is free, and only angles are preserved.
     Free,
-    /// The boundary free, lengths and areas count too.
+    /// The boundary is free, and lengths and areas are preserved, too.
     Isometric,
 }
 
 impl MapClass {
-    /// As tables have it.
+    /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
             MapClass::Circle => "circle",
@@ -23,10 +23,10 @@ impl MapClass {
     }
 }
 
-/// Where a mesh comes from.
+/// Sources of meshes.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// A generated surface; `{n}` stands for the vertices along a side.
+    /// A generated surface; `{n}` stands for the number of vertices along a side.
     Generated(&'static str),
     /// A public file.
     File(&'static str),
@@ -35,22 +35,22 @@ pub enum Source {
 /// A mesh of any size, or a file.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// As on the command line.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// One line.
+    /// Its description, in one line.
     pub about: &'static str,
-    /// Where it comes from.
+    /// The source of its meshes.
     pub source: Source,
-    /// No larger than this many vertices.
+    /// Largest number of vertices.
     pub largest: usize,
-    /// Slow contestants up to this many vertices.
+    /// Largest number of vertices for slow contestants.
     pub slow_up_to: usize,
-    /// Maps of lengths and areas up to this many vertices.
+    /// Largest number of vertices for isometric maps.
     pub isometric_up_to: usize,
 }
 
 impl Case {
-    /// The mesh of about `vertices` vertices; `None` where the case has none of that size.
+    /// Returns the mesh of about `vertices` vertices; `None` if the case has none of that size.
     pub fn mesh(&self, vertices: usize) -> Option<String> {
         match self.source {
             Source::Generated(pattern) if vertices <= self.largest => {
@@ -62,7 +62,7 @@ impl Case {
     }
 }
 
-/// Every case.
+/// All cases.
 pub static CASES: &[Case] = &[
     Case {
         name: "grid",
@@ -106,24 +106,24 @@ pub static CASES: &[Case] = &[
     },
 ];
 
-/// A program with its way to map.
+/// A program with one of its methods.
 #[derive(Clone, Copy, Debug)]
 pub struct Contestant {
-    /// As in tables.
+    /// Its name in tables.
     pub name: &'static str,
-    /// One line.
+    /// Its description, in one line.
     pub about: &'static str,
-    /// What it seeks.
+    /// Kind of its maps.
     pub kind: MapClass,
-    /// Who runs.
+    /// The program that runs.
     pub program: Program,
-    /// No mesh of more vertices than this.
+    /// Largest number of vertices.
     pub largest: usize,
-    /// Whether it is kept from the large meshes of some cases.
+    /// Whether it is slow, and does not run on the large meshes of some cases.
     pub slow: bool,
 }
 
-/// Who runs.
+/// Programs that run.
 #[derive(Clone, Copy, Debug)]
 pub enum Program {
     /// This program: `riemap map` with these options.
@@ -137,7 +137,7 @@ pub enum Program {
 pub struct Package {
     /// Its name at PyPI.
     pub name: &'static str,
-    /// What makes it available.
+    /// How to install it.
     pub install: &'static str,
 }
 
@@ -149,7 +149,7 @@ const CHOLMOD: Package = Package {
               interpreter of your own pip install --no-build-isolation scikit-sparse==0.4.16",
 };
 
-/// Everyone; of a kind ours is the first.
+/// All contestants; the first of each kind is ours.
 pub static CONTESTANTS: &[Contestant] = &[
     Contestant {
         name: "riemap-circle",
@@ -234,7 +234,7 @@ pub static CONTESTANTS: &[Contestant] = &[
 ];
 
 impl Contestant {
-    /// Whether it takes part where the mesh has `vertices` vertices.
+    /// Whether it runs on a mesh of `vertices` vertices.
     pub fn enters(&self, case: &Case, vertices: usize) -> bool {
         // A size is what was asked for; a grid has a few vertices more or fewer.
         let beyond = |limit: usize| vertices as f64 > 1.1 * limit as f64;
@@ -250,7 +250,7 @@ impl Contestant {
     }
 }
 
-/// The case of that name.
+/// Returns the case of that name.
 pub fn case(name: &str) -> Option<&'static Case> {
     CASES.iter().find(|case| case.name == name)
 }

@@ -1,4 +1,4 @@
-//! The contest on one mesh: every contestant a process of its own, in turns.
+//! The contest on one mesh: contestants take turns, each run in its own process.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,20 +14,20 @@ use super::target::Target;
 use super::{BenchError, Contestant, Peers, Program};
 use crate::app::measure::process::{Bounds, End, Ended, watch};
 
-/// What holds for all contests.
+/// Settings of all contests.
 pub(super) struct Rules<'a> {
-    /// This program.
+    /// Path of this program.
     pub riemap: &'a Path,
     pub peers: Option<&'a Peers>,
-    /// Where contestants leave their maps.
+    /// Folder of the maps that contestants write.
     pub folder: &'a Path,
     pub limit: Duration,
     pub repeats: usize,
-    /// Who has taken this long on a mesh does not run on it again.
+    /// Time after which a contestant is not run on the same mesh again.
     pub patience: Duration,
 }
 
-/// A contestant on one mesh, with its runs so far and how they ended.
+/// A contestant on one mesh, with its runs so far and their outcome.
 pub(super) struct Entrant {
     pub contestant: &'static Contestant,
     pub runs: Vec<Measured>,
@@ -35,7 +35,7 @@ pub(super) struct Entrant {
     end: Option<ContestOutcome>,
 }
 
-/// What a run ended with.
+/// The result of a run.
 enum Run {
     Done(Measured, Result<Quality, String>),
     Stopped { spent: Option<f64> },
@@ -43,7 +43,8 @@ enum Run {
 }
 
 impl Entrant {
-    /// A contestant on a mesh on which a process will take `expected` seconds or more, as a smaller one says.
+    /// Enters a contestant on a mesh for which a process needs at least `expected` seconds, judging
+    /// by a smaller mesh.
     pub fn new(contestant: &'static Contestant, expected: Option<f64>, rules: &Rules) -> Entrant {
         let limit = rules.limit.as_secs_f64();
         let over = expected.filter(|&seconds| seconds > limit);
@@ -54,13 +55,13 @@ impl Entrant {
         Entrant { contestant, runs: Vec::new(), quality: Quality::default(), end }
     }
 
-    /// Whether it is its turn in this round.
+    /// Whether it runs in this round.
     pub fn is_next(&self, round: usize, rules: &Rules) -> bool {
         let taken: f64 = self.runs.iter().map(|run| run.whole.wall).sum();
         self.end.is_none() && round < rules.repeats && (round == 0 || taken < rules.patience.as_secs_f64())
     }
 
-    /// Its next run.
+    /// Makes its next run.
     pub fn run(&mut self, target: &Target, rules: &Rules) -> Result<(), BenchError> {
         match once(self.contestant, target, rules)? {
             Run::Done(measured, Ok(quality)) => {
@@ -76,7 +77,7 @@ impl Entrant {
         Ok(())
     }
 
-    /// What came of it.
+    /// Returns its outcome.
     pub fn outcome(&self) -> ContestOutcome {
         let done = || medians(&self.runs).map(|median| ContestOutcome::Done { median, quality: self.quality });
         let never = || ContestOutcome::Failed { reason: "it never ran".to_owned() };
@@ -132,7 +133,7 @@ fn once(contestant: &Contestant, target: &Target, rules: &Rules) -> Result<Run, 
     })
 }
 
-/// Our report in the form of a peer's answer.
+/// Returns our report in the form of a peer's answer.
 fn ours(report: &Value) -> Value {
     let solver = &report["solver"];
     let sum =
@@ -145,7 +146,8 @@ fn ours(report: &Value) -> Value {
     })
 }
 
-/// What a process said and what was seen of it; `None` where it did not say how long it took.
+/// Returns the run from the answer of a process and its measurements; `None` if the answer has no
+/// times.
 fn measured(answer: &Value, ended: &Ended) -> Option<Measured> {
     let seconds = |of: &Value| Some(Seconds { cpu: of["cpu"].as_f64(), wall: of["wall"].as_f64()? });
     Some(Measured {

@@ -4,7 +4,7 @@ use super::record::{Measured, Seconds};
 use super::{Entry, contestant};
 use crate::app::measure::median::median;
 
-/// The median of each number by itself; what a run does not tell is left out.
+/// Returns the median of each quantity over the runs that report it.
 pub fn medians(runs: &[Measured]) -> Option<Measured> {
     let seconds = |of: &dyn Fn(&Measured) -> Option<Seconds>| {
         let known: Vec<Seconds> = runs.iter().filter_map(of).collect();
@@ -20,7 +20,7 @@ pub fn medians(runs: &[Measured]) -> Option<Measured> {
     })
 }
 
-/// Gives every peer of a mesh its ratio to ours of the same kind.
+/// Sets the ratio of every peer to our contestant of the same kind on the same mesh.
 pub fn compare(entries: &mut [Entry]) {
     let cpu = |entry: &Entry| entry.median().and_then(|m| m.solve.cpu);
     let ours: Vec<_> = entries

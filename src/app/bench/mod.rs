@@ -1,14 +1,14 @@
-//! Speed against other programs, each run a process of its own: `riemap bench`.
+//! Comparison of speed with other programs: `riemap bench`. Every run is a process of its own.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! |---|---|
-//! | `case.rs` | the meshes and the contestants: two tables |
-//! | `run.rs`, `contest.rs` | all meshes one after the other; on each, everyone in turns |
-//! | `python.rs`, `peers.py` | the interpreter with the peers, and what it runs |
-//! | `target.rs` | the mesh as files, and the measure of what comes back |
+//! | `case.rs` | the tables of meshes and of contestants |
+//! | `run.rs`, `contest.rs` | all meshes in sequence; on each mesh, the contestants in turns |
+//! | `python.rs`, `peers.py` | the interpreter with the peers, and the script it runs |
+//! | `target.rs` | the mesh as files, and the measurement of maps |
 //! | `exchange.rs` | the speed of reading and writing |
-//! | `record.rs`, `median.rs`, `requirement.rs` | what is kept; medians and ratios; the bars that the program is held to |
-//! | `table.rs`, `chart.rs` | Markdown, CSV and plots of it |
+//! | `record.rs`, `median.rs`, `requirement.rs` | the record; medians and ratios; performance bars |
+//! | `table.rs`, `chart.rs` | the record as Markdown, CSV and plots |
 
 mod case;
 mod chart;
@@ -37,19 +37,19 @@ pub use table::{bars, brief, csv, markdown};
 
 use crate::io::{WriteError, stage};
 
-/// The contestant of that name.
+/// Returns the contestant of that name.
 pub fn contestant(name: &str) -> Option<&'static Contestant> {
     CONTESTANTS.iter().find(|contestant| contestant.name == name)
 }
 
-/// The files that [`write()`] always makes.
+/// Files that [`write()`] always writes.
 pub const FILES: [&str; 3] = ["table.md", "bench.csv", "bench.json"];
 
-/// Writes `table.md`, `bench.csv`, `bench.json` and the plots into `folder`, all or none; their paths. Plots of an earlier record
-/// that this one has not are removed.
+/// Writes `table.md`, `bench.csv`, `bench.json` and the plots into `folder`, all or none, and
+/// returns their paths. Plots of an earlier record that this one does not have are removed.
 ///
 /// # Errors
-/// A folder that cannot be made; files that cannot be written.
+/// The folder cannot be created, or a file cannot be written.
 pub fn write(record: &Record, folder: &Path) -> Result<Vec<PathBuf>, BenchError> {
     let json = serde_json::json!({ "bars": verdicts(record), "record": record });
     let texts = [markdown(record), csv(record), format!("{}\n", serde_json::to_string_pretty(&json)?)];

@@ -1,4 +1,4 @@
-//! The interpreter that runs the peers, and what it has.
+//! The interpreter that runs the peers, and its packages.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -15,13 +15,15 @@ const SCRIPT: &str = include_str!("peers.py");
 /// A package that is added to libigl's environment.
 struct Extra {
     name: &'static str,
-    /// Files of requirements with hashes, installed one after the other with these further arguments of pip.
+    /// Files of requirements with hashes, installed one after the other with these further
+    /// arguments of pip.
     steps: &'static [(&'static str, &'static [&'static str])],
-    /// Whether it is compiled here, against libraries of the system, and so installed only where asked for.
+    /// Whether it is compiled with libraries of the system, and therefore installed only on
+    /// request.
     from_source: bool,
 }
 
-/// All of them; each is left out where it cannot be had.
+/// All packages. One that cannot be installed is left out.
 const EXTRAS: &[Extra] = &[
     Extra {
         name: "pymeshlab",
@@ -39,10 +41,10 @@ const EXTRAS: &[Extra] = &[
     },
 ];
 
-/// Lines of a failed command that are worth showing.
+/// Number of lines of a failed command that are shown.
 const LINES: usize = 6;
 
-/// Every library of linear algebra that a peer may bring is told to take one thread.
+/// Variables that limit every library of linear algebra to one thread.
 const ONE_THREAD: [&str; 5] =
     ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"];
 
@@ -51,24 +53,25 @@ const ONE_THREAD: [&str; 5] =
 pub struct Peers {
     python: PathBuf,
     isolated: bool,
-    /// Of the interpreter and of the packages that it has.
+    /// Versions of the interpreter and of its packages.
     pub versions: BTreeMap<String, String>,
 }
 
 impl Peers {
-    /// Those of an interpreter of the user's own.
+    /// Returns the peers of an interpreter that the user named.
     ///
     /// # Errors
-    /// It does not run, or is no Python 3.
+    /// The interpreter does not run, or is not a Python 3.
     pub fn of(python: &Path) -> Result<Peers, BenchError> {
         Peers::found(program(python), false)
     }
 
-    /// Those of an environment of our own beside that of [`crate::app::compare::libigl`], made on first use: from the network, about a minute.
-    /// `build`: packages that are compiled from source, too. `say` hears of packages that cannot be had.
+    /// Returns the peers of our own environment, beside that of [`crate::app::compare::libigl`]. It
+    /// is created on first use, from the network in about a minute. `build` includes packages that
+    /// are compiled from source; `say` is called with packages that cannot be installed.
     ///
     /// # Errors
-    /// It cannot be made.
+    /// The environment cannot be created.
     pub fn ensure(settings: &Settings, build: bool, say: &mut dyn FnMut(String)) -> Result<Peers, BenchError> {
         let settings = Peers::settings(settings);
         if let Some(python) = &settings.interpreter {
@@ -91,7 +94,7 @@ impl Peers {
         Ok(peers)
     }
 
-    /// Where [`Peers::ensure`] has its environment.
+    /// Returns the folder of the environment of [`Peers::ensure`].
     pub fn settings(settings: &Settings) -> Settings {
         let mut folder = settings.folder.clone().into_os_string();
         folder.push("-bench");
@@ -128,7 +131,7 @@ impl Peers {
         }
     }
 
-    /// `peers.py` with these arguments.
+    /// Returns a command that runs `peers.py` with these arguments.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = libigl::command(&self.python, self.isolated);
         command.args(["-c", SCRIPT]).args(arguments);
@@ -137,12 +140,12 @@ impl Peers {
     }
 }
 
-/// Has every library of linear algebra take one thread.
+/// Limits every library of linear algebra to one thread.
 pub(super) fn one_thread(command: &mut Command) {
     command.envs(ONE_THREAD.map(|name| (name, "1")));
 }
 
-/// What a contestant lacks, with what makes it available; `None` if it can run.
+/// Returns the package that a contestant lacks, and how to install it; `None` if it can run.
 pub(super) fn lacks(peers: Option<&Peers>, contestant: &Contestant) -> Option<(&'static str, String)> {
     let Program::Peer(packages) = contestant.program else {
         return None;
@@ -152,7 +155,7 @@ pub(super) fn lacks(peers: Option<&Peers>, contestant: &Contestant) -> Option<(&
     Some((missing.name, format!("{}{into}", missing.install)))
 }
 
-/// The end of what a process said, on one line.
+/// Returns the end of the output of a process on one line.
 pub(super) fn last_words(text: &str) -> String {
     let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     lines[lines.len().saturating_sub(LINES)..].join(" / ")

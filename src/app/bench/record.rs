@@ -1,4 +1,4 @@
-//! What is kept of a comparison.
+//! The record of a comparison.
 
 use std::collections::BTreeMap;
 
@@ -7,43 +7,43 @@ use serde::Serialize;
 use super::MapClass;
 use crate::distortion::Distortion;
 
-/// Seconds by both clocks.
+/// Seconds of both clocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
-    /// Of the processor, all threads; `None` where the system does not say.
+    /// Processor seconds of all threads; `None` if the system does not report them.
     pub cpu: Option<f64>,
-    /// By the clock on the wall.
+    /// Wall-clock seconds.
     pub wall: f64,
 }
 
-/// One process.
+/// Times and memory of one process.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Measured {
-    /// From the mesh in memory to the map there: assembly, factorisation, solution.
+    /// Time from the mesh in memory to the map in memory: assembly, factorisation, solution.
     pub solve: Seconds,
-    /// The part of it after the assembly, where a peer tells.
+    /// Part of it after the assembly, if a peer reports it.
     pub factor: Option<Seconds>,
-    /// The whole process, from its start over reading and writing to its end.
+    /// Time of the whole process, with reading and writing.
     pub whole: Seconds,
-    /// The most memory held at once.
+    /// Peak memory in bytes.
     pub peak_bytes: Option<u64>,
 }
 
-/// How good a map is; all by our code.
+/// Quality of a map, always measured by our code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Quality {
-    /// Mean of σ1/σ2 over faces that are not turned over; `None` where there are none.
+    /// Mean of σ1/σ2 over the faces that are not flipped; `None` if there are none.
     pub quasi_conformal: Option<f64>,
-    /// Its 99 % quantile.
+    /// 99 % quantile of σ1/σ2.
     pub quasi_conformal_p99: Option<f64>,
-    /// Mean of max(t, 1/t), t the area distortion.
+    /// Mean of max(t, 1/t), where t is the area distortion.
     pub area: Option<f64>,
-    /// Faces turned over.
+    /// Number of flipped faces.
     pub flipped: usize,
 }
 
 impl Quality {
-    /// Of a measured map.
+    /// Returns the quality of a measured map.
     pub fn of(distortion: &Distortion) -> Quality {
         let error = distortion.quasi_conformal.as_ref();
         Quality {
@@ -55,68 +55,69 @@ impl Quality {
     }
 }
 
-/// How a contestant did on a mesh.
+/// Outcome of a contestant on a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "outcome")]
 pub enum ContestOutcome {
-    /// It has a map.
+    /// It returned a map.
     Done {
         /// Medians of the runs.
         median: Measured,
-        /// Of its map.
+        /// Quality of its map.
         quality: Quality,
     },
-    /// It was stopped, or not begun because a smaller mesh says that it would take longer.
+    /// It was stopped at the time limit, or not started because it would exceed it, judging by a
+    /// smaller mesh.
     OverTheLimit {
-        /// Seconds a process may take.
+        /// Time limit of a process in seconds.
         limit: f64,
-        /// What it would have taken, at the least, where it was not begun.
+        /// Expected time at least, if it was not started.
         expected: Option<f64>,
-        /// Processor seconds that it had when it was stopped.
+        /// Processor seconds until it was stopped.
         spent: Option<f64>,
     },
     /// It ended with an error.
     Failed {
-        /// Its last words.
+        /// Its last message.
         reason: String,
     },
     /// It is not installed.
     LeftOut {
-        /// The package that is missing.
+        /// The missing package.
         lacks: &'static str,
-        /// What makes it available.
+        /// How to install it.
         install: String,
     },
 }
 
-/// A contestant on a mesh.
+/// The result of a contestant on a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Entry {
     /// Name of the case.
     pub case: &'static str,
-    /// Vertices asked for; those of the mesh where it is a file.
+    /// Requested number of vertices; for a file, the number it has.
     pub size: usize,
     /// Name or path of the mesh.
     pub mesh: String,
-    /// Vertices.
+    /// Number of vertices.
     pub vertices: usize,
-    /// Faces; peers map them split into triangles.
+    /// Number of faces; peers map quads split into triangles.
     pub faces: usize,
     /// Name of the contestant.
     pub contestant: &'static str,
-    /// What it seeks.
+    /// Kind of its maps.
     pub kind: MapClass,
-    /// Every run.
+    /// All runs.
     pub runs: Vec<Measured>,
-    /// What came of them.
+    /// The outcome.
     #[serde(flatten)]
     pub outcome: ContestOutcome,
-    /// Ours over this, processor seconds of the solve; peers that are done.
+    /// For peers with a map: processor seconds of our solve over those of this one.
     pub ratio: Option<f64>,
 }
 
 impl Entry {
-    /// The medians, where there are any.
+    /// Returns the medians, if there are any.
     pub fn median(&self) -> Option<&Measured> {
         match &self.outcome {
             ContestOutcome::Done { median, .. } => Some(median),
@@ -125,43 +126,43 @@ impl Entry {
     }
 }
 
-/// Reading or writing a format.
+/// Speed of reading or writing a format.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Exchange {
-    /// `read obj`, `write ply`.
+    /// The operation, such as `read obj` or `write ply`.
     pub what: String,
-    /// Size of the file.
+    /// Size of the file in bytes.
     pub bytes: usize,
-    /// Processor seconds, median.
+    /// Median of the processor seconds.
     pub cpu: f64,
 }
 
 impl Exchange {
-    /// 10⁶ bytes a second.
+    /// Returns the speed in 10⁶ bytes per second.
     pub fn megabytes_per_second(&self) -> f64 {
         self.bytes as f64 / 1e6 / self.cpu
     }
 }
 
-/// All of it.
+/// The whole record.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Record {
-    /// Every contestant on every mesh.
+    /// Results of all contestants on all meshes.
     pub entries: Vec<Entry>,
-    /// Reading and writing the largest grid.
+    /// Speed of reading and writing the largest grid.
     pub exchange: Vec<Exchange>,
-    /// What took part.
+    /// Programs and packages with their versions.
     pub versions: BTreeMap<String, String>,
-    /// The processor.
+    /// Name of the processor.
     pub machine: String,
-    /// Cases without a mesh, and why.
+    /// Cases without a mesh, with the reasons.
     pub passed_over: Vec<String>,
-    /// Seconds that a process may take.
+    /// Time limit of a process in seconds.
     pub limit: f64,
 }
 
 impl Record {
-    /// The entry of a contestant on a mesh.
+    /// Returns the entry of a contestant on a mesh.
     pub fn entry(&self, case: &str, size: Option<usize>, contestant: &str) -> Option<&Entry> {
         let is = |e: &&Entry| e.case == case && size.is_none_or(|n| e.size == n) && e.contestant == contestant;
         self.entries.iter().find(is)

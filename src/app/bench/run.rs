@@ -1,4 +1,4 @@
-//! All contests, one after the other.
+//! All contests in sequence.
 
 use std::env;
 use std::fs;
@@ -12,49 +12,50 @@ use super::record::{ContestOutcome, Entry, Record};
 use super::target::Target;
 use super::{BenchError, CASES, CONTESTANTS, Case, Peers, Source, case};
 
-/// What is compared, and how.
+/// The cases, sizes and limits of a comparison.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Which cases; empty: all.
+    /// Names of the cases; all cases if empty.
     pub cases: Vec<String>,
-    /// About how many vertices the meshes have.
+    /// Approximate numbers of vertices.
     pub sizes: Vec<usize>,
-    /// Whether peers take part; those that are not installed are then named.
+    /// Whether peers take part; those that are not installed are named in the record.
     pub against_peers: bool,
-    /// Runs of each contestant on each mesh.
+    /// Number of runs of each contestant on each mesh.
     pub repeats: usize,
-    /// What a process may take.
+    /// Time limit of a process.
     pub limit: Duration,
-    /// A contestant whose runs on a mesh have taken this long in all is not run on it again.
+    /// Total time of the runs on a mesh after which a contestant is not run on it again.
     pub patience: Duration,
-    /// Where public files are looked for.
+    /// Folders in which public files are searched.
     pub data: Vec<PathBuf>,
 }
 
-/// What happens.
+/// An event of a comparison.
 #[derive(Debug)]
 pub enum Event<'a> {
     /// A mesh is ready.
     Mesh {
         /// Name of the case.
         case: &'static str,
-        /// Its vertices.
+        /// Number of vertices.
         vertices: usize,
-        /// Its faces.
+        /// Number of faces.
         faces: usize,
     },
-    /// A contestant is through with it.
+    /// A contestant has finished on the mesh.
     Entry(&'a Entry),
     /// A case has no mesh.
     PassedOver(&'a str),
 }
 
-/// Has every contestant map every mesh of the plan, each run a process of its own with one thread, in turns: after everyone's
-/// first run comes everyone's second. Peers map quads split into triangles; all maps are measured on the mesh itself, by our code.
+/// Runs every contestant on every mesh of the plan. Each run is a process with one thread, and
+/// contestants take turns: the second runs follow after all first runs. Peers map quads split into
+/// triangles; all maps are measured on the mesh itself, by our code.
 ///
 /// # Errors
-/// Unknown cases; meshes that cannot be made; a system that does not let processes be run. A contestant that fails is an
-/// [`ContestOutcome`].
+/// A case is unknown, a mesh cannot be generated, or the system cannot start processes. The failure
+/// of a contestant is a [`ContestOutcome`].
 pub fn run(plan: &Plan, peers: Option<&Peers>, tell: &mut dyn FnMut(Event)) -> Result<Record, BenchError> {
     let cases = chosen(&plan.cases)?;
     let riemap = env::current_exe().map_err(BenchError::io("the running program cannot be found"))?;
@@ -115,10 +116,10 @@ pub fn run(plan: &Plan, peers: Option<&Peers>, tell: &mut dyn FnMut(Event)) -> R
     Ok(record)
 }
 
-/// The cases of these names; all, if there are none.
+/// Returns the cases of these names; without names, all cases.
 ///
 /// # Errors
-/// A name of no case.
+/// There is no case of a name.
 pub fn chosen(names: &[String]) -> Result<Vec<&'static Case>, BenchError> {
     if names.is_empty() {
         return Ok(CASES.iter().collect());
@@ -128,7 +129,8 @@ pub fn chosen(names: &[String]) -> Result<Vec<&'static Case>, BenchError> {
     names.iter().map(|name| case(name).ok_or_else(|| unknown(name))).collect()
 }
 
-/// The meshes of a case, from the smallest: the size asked for, if it has one, and the source.
+/// Returns the meshes of a case in ascending order: the requested size, unless it is a file, and
+/// the source.
 fn meshes(case: &Case, plan: &Plan, passed_over: &mut Vec<String>) -> Vec<(Option<usize>, String)> {
     if let Source::File(name) = case.source {
         let found = plan.data.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
@@ -143,7 +145,8 @@ fn meshes(case: &Case, plan: &Plan, passed_over: &mut Vec<String>) -> Vec<(Optio
     sizes.into_iter().filter_map(|size| Some((Some(size), case.mesh(size)?))).collect()
 }
 
-/// Seconds that a process will take at the least: those on the largest smaller mesh, times the vertices over its.
+/// Returns a lower estimate of the seconds of a process: those on the largest smaller mesh, times
+/// the ratio of the numbers of vertices.
 fn expected(record: &Record, case: &Case, contestant: &str, vertices: usize) -> Option<f64> {
     let earlier = record.entries.iter().rev().find(|e| e.case == case.name && e.contestant == contestant)?;
     let seconds = match &earlier.outcome {

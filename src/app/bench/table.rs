@@ -1,4 +1,4 @@
-//! The record as text: Markdown to read, CSV to work with.
+//! The record as Markdown and as CSV.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use super::record::{ContestOutcome, Entry, Measured, Quality, Record};
 use super::requirement::{Verdict, verdicts};
 use super::{Contestant, contestant};
 
-/// The bars and one table per mesh, in Markdown.
+/// Returns the bars and one table per mesh as Markdown.
 pub fn markdown(record: &Record) -> String {
     let mut text = String::from("# Speed against peers\n\n");
     let versions: Vec<String> = record.versions.iter().map(|(name, version)| format!("{name} {version}")).collect();
@@ -15,7 +15,7 @@ pub fn markdown(record: &Record) -> String {
          its own with one thread, contestants in turns. *Solve*: from the mesh in memory to the map there, assembly included \
          (of that after the assembly: *factor*, where it is told apart). *Whole*: the process from start to end, reading and \
          writing included; a peer's has the start of Python in it, ours the exact check of the map, its distortion and its writing \
-         as OBJ, where peers write bare numbers. Peers get quads split into triangles. Our maps are the plain ones (`--valid off`), their folds counted as the peers' are. All maps are measured by our code on the \
+         as OBJ, where peers write bare numbers. Peers get quads split into triangles. Our maps are the conformal ones (`--valid off`), and flipped faces are counted as those of the peers. All maps are measured by our code on the \
          faces of the mesh as it is. *Ours/its*: the solve of our map of the same kind over this one's, processor seconds. Slow \
          contestants are kept from large meshes, and who has taken 15 s on a mesh is not run on it again.\n\n\
          Machine: {}. Versions: {}. Limit: {} s a process.\n\n",
@@ -45,7 +45,7 @@ pub fn markdown(record: &Record) -> String {
     text
 }
 
-/// The bars as a table.
+/// Returns the bars as a table.
 pub fn bars(verdicts: &[Verdict]) -> String {
     let mut text = String::from("| what | measured | bar | holds |\n| :-- | --: | --: | :-- |\n");
     for Verdict { what, measured, at_most, bound, holds } in verdicts {
@@ -61,7 +61,7 @@ pub fn bars(verdicts: &[Verdict]) -> String {
     text
 }
 
-/// Every run's numbers, one line an entry.
+/// Returns the numbers of all runs as CSV, one line per entry.
 pub fn csv(record: &Record) -> String {
     let mut text = String::from(
         "case,size,vertices,faces,contestant,map,outcome,runs,solve_cpu,solve_wall,factor_cpu,whole_cpu,whole_wall,peak_bytes,\
@@ -98,7 +98,7 @@ pub fn csv(record: &Record) -> String {
     text
 }
 
-/// The entries mesh by mesh.
+/// Groups the entries by mesh.
 fn meshes(record: &Record) -> Vec<Vec<&Entry>> {
     let mut meshes: Vec<Vec<&Entry>> = Vec::new();
     for entry in &record.entries {
@@ -135,7 +135,7 @@ fn row(entry: &Entry) -> String {
     )
 }
 
-/// An outcome without numbers, in a few words.
+/// Describes an outcome without numbers in a few words.
 pub fn brief(outcome: &ContestOutcome) -> String {
     match outcome {
         ContestOutcome::Done { .. } => "done".to_owned(),
@@ -148,7 +148,7 @@ pub fn brief(outcome: &ContestOutcome) -> String {
     }
 }
 
-/// Who they are, and what went wrong.
+/// Describes the contestants, and the failures.
 fn notes(record: &Record) -> String {
     let mut text = String::from("\n## Contestants\n\n");
     let mut named: Vec<&str> = Vec::new();
@@ -188,7 +188,7 @@ fn quality(entry: &Entry) -> Option<Quality> {
     }
 }
 
-/// Three significant digits, as bars are told apart by.
+/// Formats three significant digits, which suffice to compare with a bar.
 fn digits(value: f64) -> String {
     let decimals = (2 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9) as usize;
     format!("{value:.decimals$}")

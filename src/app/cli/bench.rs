@@ -1,3 +1,5 @@
+//! `riemap bench`: speed beside other programs.
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -12,47 +14,51 @@ use crate::io::can_be_written;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Names of cases, see `riemap list`; without any, all of them
+    /// Cases, as `riemap list` names them; without any, all of them
     #[arg(value_name = "CASE")]
     cases: Vec<String>,
-    /// Vertices of the meshes, about [default: 10000,100000,1000000]
+    /// Approximate numbers of vertices [default: 10000,100000,1000000]
     #[arg(long, value_name = "N,N,…", value_delimiter = ',', value_parser = clap::value_parser!(u64).range(16..=20_000_000))]
     sizes: Vec<u64>,
-    /// Runs of each contestant on each mesh; those that are long are not all made [default: 3]
+    /// Runs of each contestant on each mesh; long runs are repeated less often [default: 3]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=99))]
     repeats: Option<u64>,
-    /// A small run to see that all is there: 1000 vertices, once; written only where --results says
+    /// Check that everything is installed: one run of 1000 vertices, written only if --results is
+    /// given
     #[arg(long)]
     quick: bool,
-    /// Seconds that a process may take
+    /// Time limit of a process in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 120, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     limit: u64,
-    /// A Python 3 that has peers (libigl, numpy, scipy, scikit-sparse, pymeshlab) [default: $RIEMAP_PYTHON, else an
-    /// environment in the cache folder, made on first use]
+    /// Python 3 interpreter with the peers [default: $RIEMAP_PYTHON, or an environment created on
+    /// first use]
+    ///
+    /// The peers are the packages libigl, numpy, scipy, scikit-sparse and pymeshlab. The
+    /// environment is in the user's cache folder.
     #[arg(long, value_name = "PROGRAM", conflicts_with = "no_peers")]
     python: Option<PathBuf>,
-    /// Compile scikit-sparse against the system's CHOLMOD into that environment, if it is not there
+    /// Compile scikit-sparse with the CHOLMOD of the system into that environment, if it is missing
     #[arg(long, conflicts_with_all = ["no_peers", "python"])]
     build_scikit_sparse: bool,
-    /// Without peers: riemap alone
+    /// Measure only riemap
     #[arg(long)]
     no_peers: bool,
-    /// Folder of the results: they go into bench/ in it [default: results]
+    /// Folder whose subfolder bench/ takes the results [default: results]
     #[arg(long, value_name = "FOLDER")]
     results: Option<PathBuf>,
 }
 
-/// A contestant that has taken this long on a mesh is not run on it again.
+/// Time after which a contestant is not run on the same mesh again.
 const PATIENCE: Duration = Duration::from_secs(15);
 
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     let plan = plan(arguments);
-    // What cannot be done is refused before hours are spent.
+    // Requests that must fail are refused before hours are spent.
     bench::chosen(&plan.cases)?;
     let folder = folder(arguments);
     folder.as_deref().map_or(Ok(()), can_take)?;
     let peers = peers(arguments)?;
-    // An output that cannot be printed to ends the run.
+    // A closed output ends the run.
     let mut printed = Ok(());
     let record = bench::run(&plan, peers.as_ref(), &mut |event| {
         if printed.is_ok() {
@@ -69,7 +75,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     fail_where_ours_did(&record)
 }
 
-/// Fails where the results cannot be written, as far as can be told without writing.
+/// Fails if the results cannot be written, as far as this is known without writing.
 fn can_take(folder: &Path) -> Result<()> {
     let there = folder.ancestors().find(|path| path.exists()).unwrap_or(Path::new("."));
     if !there.is_dir() && there != Path::new("") {
@@ -81,7 +87,7 @@ fn can_take(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Where the results go.
+/// Returns the folder of the results.
 fn folder(arguments: &Arguments) -> Option<PathBuf> {
     let results = match &arguments.results {
         Some(results) => results.clone(),
@@ -108,7 +114,8 @@ fn plan(arguments: &Arguments) -> Plan {
     }
 }
 
-/// The interpreter with the peers: one that was named must work, our own environment may be missing.
+/// Returns the interpreter with the peers. One that the user named must work; our own environment
+/// may be missing.
 fn peers(arguments: &Arguments) -> Result<Option<Peers>> {
     if arguments.no_peers {
         return Ok(None);
@@ -178,7 +185,7 @@ fn line(out: &mut dyn Write, entry: &Entry) -> Result<()> {
     Ok(())
 }
 
-/// A peer that fails is a line of the table; that we do is an error.
+/// Fails if a run of riemap failed. A peer that fails is only a line of the table.
 fn fail_where_ours_did(record: &Record) -> Result<()> {
     let ours = |entry: &&Entry| bench::contestant(entry.contestant).is_some_and(|contestant| contestant.is_ours());
     for entry in record.entries.iter().filter(ours) {

@@ -1,4 +1,4 @@
-//! The page of results that `run` and `reproduce` leave behind.
+//! The page of results that `run` and `reproduce` write.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -9,10 +9,11 @@ use crate::app::experiment::{Config, EXPERIMENTS, has_experiments, records, writ
 
 use super::experiments::{Options, load};
 
-/// Writes `index.html` into `results`: `shown`, and every other experiment of the working directory that has records there.
+/// Writes `index.html` into `results`: `shown`, and every other experiment of the working directory
+/// that has records there.
 pub fn write_index(mut shown: Vec<Config>, options: &Options, results: &Path, out: &mut dyn Write) -> Result<()> {
     let others = if has_experiments() { experiment_files(Path::new(EXPERIMENTS))? } else { Vec::new() };
-    // Settings from outside are for those that were run.
+    // Settings of the command line apply only to the experiments that were run.
     let options = Options { set: Vec::new(), ..options.clone() };
     for path in others {
         if shown.iter().any(|config| config.name == name(&path)) {
@@ -28,7 +29,7 @@ pub fn write_index(mut shown: Vec<Config>, options: &Options, results: &Path, ou
     Ok(())
 }
 
-/// The experiments of a folder, by name.
+/// Returns the experiment files of a folder, sorted.
 pub fn experiment_files(folder: &Path) -> Result<Vec<PathBuf>> {
     let unreadable = || format!("{} cannot be read", folder.display());
     let mut paths = Vec::new();
@@ -43,7 +44,7 @@ pub fn experiment_files(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// Name of the experiment in a file.
+/// Returns the name of the experiment in a file.
 pub fn name(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }

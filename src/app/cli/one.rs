@@ -1,4 +1,5 @@
-//! One run of an experiment: what `run` and `reproduce` call where each run has a process of its own.
+//! `riemap run-one`: one run of an experiment in its own process, as `run` and `reproduce` start it
+//! for runs with a time limit.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -18,7 +19,7 @@ pub struct Arguments {
     /// The experiment: a TOML file
     #[arg(value_name = "CONFIG.toml")]
     config: PathBuf,
-    /// The run's place among those of the config, from 0
+    /// Position of the run among those of the config, from 0
     #[arg(long)]
     position: usize,
     #[command(flatten)]
@@ -38,7 +39,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
-/// The command line that makes one run.
+/// Returns the command that makes one run.
 pub fn command(program: &Path, config: &Config, run: &Run, options: &Options, scratch: &Scratch) -> Command {
     let mut command = Command::new(program);
     command.args([

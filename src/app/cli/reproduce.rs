@@ -1,3 +1,5 @@
+//! `riemap reproduce`: the experiments of a clone, by name.
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -43,7 +45,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     for (config, data) in absent(&configs) {
         writeln!(out, "{} passed over: {data}", config.name)?;
     }
-    // With other settings there may be fewer runs than the config has.
+    // With settings of the command line, the config may have fewer runs than usual.
     if arguments.options.set.is_empty() {
         for config in &configs {
             for run in remove_stale(config, &results)? {

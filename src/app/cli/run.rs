@@ -1,3 +1,5 @@
+//! `riemap run`: experiments by file.
+
 use std::env;
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -37,7 +39,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
     outcome.and(written)
 }
 
-/// Runs and sums up experiments.
+/// Runs experiments and writes their summaries.
 pub fn run_all(configs: &[Config], options: &Options, results: &Path, out: &mut dyn Write) -> Result<()> {
     interrupt::listen();
     let threads = available_parallelism().unwrap_or(NonZeroUsize::MIN);

@@ -5,15 +5,16 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The version of libigl that the environment holds.
+/// Version of libigl in the environment.
 pub const VERSION: &str = "2.6.3";
 
 const REQUIREMENTS: &str = include_str!("requirements.txt");
 
-/// What pip installs from; written first, so that a folder with it is ours and may be emptied.
+/// The requirements that pip installs. They are written first: a folder that has them is ours, and
+/// may be emptied.
 const MARKER: &str = "riemap-requirements.txt";
 
-/// A copy of the requirements, written last: the environment is finished, and made for them.
+/// A copy of the requirements that is written last, and marks a finished environment.
 const STAMP: &str = "riemap-finished.txt";
 
 /// A Python interpreter with libigl.
@@ -21,22 +22,22 @@ const STAMP: &str = "riemap-finished.txt";
 pub struct Environment {
     /// The interpreter.
     pub python: PathBuf,
-    /// What it holds.
+    /// Versions of its packages.
     pub versions: Versions,
     isolated: bool,
 }
 
 impl Environment {
-    /// The environment that the variables ask for (see [`crate::app::compare::libigl`]), made when it is not there yet: some
-    /// 280 MB, from the network, 10 to 60 seconds.
+    /// Returns the environment that the variables name (see [`crate::app::compare::libigl`]), and
+    /// creates it if it does not exist: some 280 MB from the network in 10 to 60 seconds.
     ///
-    /// Any number of processes may ask at once; one makes it and the others wait. An unfinished one, or one with
-    /// other versions, is made anew.
+    /// Several processes may ask at once; one creates it and the others wait. An unfinished
+    /// environment, or one with other versions, is created anew.
     pub fn ensure() -> Result<Environment, LibiglError> {
         Environment::with(&Settings::from_variables())
     }
 
-    /// [`Environment::ensure`] with the settings given.
+    /// Does the same as [`Environment::ensure`] with the given settings.
     pub fn with(settings: &Settings) -> Result<Environment, LibiglError> {
         if let Some(python) = &settings.interpreter {
             let versions = interpreter::versions(python, false)?;
@@ -59,13 +60,14 @@ impl Environment {
         Ok(environment)
     }
 
-    /// Whether [`Environment::with`] has no environment to make, so that it answers at once.
+    /// Whether [`Environment::with`] returns at once, with no environment to create.
     pub fn is_ready(settings: &Settings) -> bool {
         settings.interpreter.is_some() || Environment::finished(&settings.folder).is_ok()
     }
 
-    /// The environment in `folder` if it is whole and has the pinned versions. The interpreter is run, as the Python
-    /// that made the environment may be gone or replaced by another one since.
+    /// Returns the environment in `folder` if it is complete and has the pinned versions. The
+    /// interpreter is run to see this, because the Python that created the environment may have
+    /// been removed or replaced.
     fn finished(folder: &Path) -> Result<Environment, LibiglError> {
         let stale = || LibiglError::Stale { folder: folder.to_path_buf() };
         ownership::check(folder)?;
@@ -80,7 +82,7 @@ impl Environment {
         Ok(Environment { python, versions, isolated: true })
     }
 
-    /// A command that runs this interpreter.
+    /// Returns a command that runs this interpreter.
     pub(super) fn command(&self) -> Command {
         interpreter::command(&self.python, self.isolated)
     }
@@ -90,7 +92,8 @@ fn executable(folder: &Path) -> PathBuf {
     if cfg!(windows) { folder.join("Scripts").join("python.exe") } else { folder.join("bin").join("python") }
 }
 
-/// Held until the file is dropped; waits for whoever holds it. The system releases it when its holder ends in any way.
+/// Locks a file until it is dropped, after waiting for other holders. The system releases the lock
+/// however its holder ends.
 fn lock(folder: &Path) -> Result<File, LibiglError> {
     let mut name = folder.as_os_str().to_os_string();
     name.push(".lock");
@@ -134,7 +137,7 @@ fn lacks_venv(line: &str) -> bool {
     line.contains("ensurepip") || line.contains("No module named venv")
 }
 
-/// An empty folder, one that is not there, and one that riemap made may be taken; no other.
+/// Refuses folders that exist, are not empty, and were not created by riemap.
 fn refuse_foreign(folder: &Path) -> Result<(), LibiglError> {
     let empty = fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_none());
     if empty || folder.join(MARKER).is_file() {
@@ -143,7 +146,8 @@ fn refuse_foreign(folder: &Path) -> Result<(), LibiglError> {
     Err(LibiglError::ForeignFolder { folder: folder.to_path_buf() })
 }
 
-/// Empties the folder; the stamp goes first, so that nobody takes what is left for an environment.
+/// Empties the folder. The stamp is removed first, so that the rest is not taken for an
+/// environment.
 fn clear(folder: &Path) -> Result<(), LibiglError> {
     refuse_foreign(folder)?;
     if !folder.exists() {

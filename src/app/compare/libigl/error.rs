@@ -1,18 +1,18 @@
 use std::path::PathBuf;
 
-/// Why libigl could not be asked. Vertex and triangle indices are 0-based.
+/// Failure of a call to libigl. Vertices and triangles are counted from 0.
 #[derive(Debug, thiserror::Error)]
 pub enum LibiglError {
-    /// No usable Python interpreter to make the environment with.
+    /// No usable Python interpreter to create the environment.
     #[error(
         "libigl needs Python 3.{minimum} or newer, and none was found:\n{}\n\
          Install Python, or name an interpreter in $PYTHON.",
         indent(tried)
     )]
     NoPython {
-        /// The minor version asked for.
+        /// The required minor version.
         minimum: u32,
-        /// Each interpreter tried, with what was wrong.
+        /// Each interpreter that was tried, with its fault.
         tried: Vec<String>,
     },
     /// Python without its `venv` or `ensurepip` module, as Debian ships it.
@@ -27,7 +27,7 @@ pub enum LibiglError {
         /// The last lines it printed.
         lines: Vec<String>,
     },
-    /// A command that makes the environment failed.
+    /// A command that creates the environment failed.
     #[error(
         "making the Python environment for libigl failed: {command} ({status}). Its last lines:\n{}\n\
          It is made once and needs the network for that: connect and run again. Without a network: set \
@@ -43,7 +43,7 @@ pub enum LibiglError {
         /// The last lines it printed.
         lines: Vec<String>,
     },
-    /// The folder exists and is not riemap's; it would have to be emptied.
+    /// The folder exists and was not created by riemap; it would have to be emptied.
     #[error(
         "{} is not empty and was not made by riemap, so it is left alone. Set $RIEMAP_PYTHON_ENV to a folder that \
          does not exist; an environment of your own with libigl: set $RIEMAP_PYTHON to its interpreter.",
@@ -63,7 +63,7 @@ pub enum LibiglError {
         /// The folder or file.
         path: PathBuf,
     },
-    /// The environment was not made by this version of riemap, or not to the end.
+    /// The environment was created by another version of riemap, or is incomplete.
     #[error("the Python environment in {} is missing, unfinished or made for another version of riemap", folder.display())]
     Stale {
         /// The folder.
@@ -78,7 +78,7 @@ pub enum LibiglError {
     Interpreter {
         /// The interpreter.
         python: PathBuf,
-        /// What was wrong: the last lines it printed, or the system's message.
+        /// The last lines it printed, or the message of the system.
         lines: Vec<String>,
     },
     /// A file or folder that cannot be read or written.
@@ -86,7 +86,7 @@ pub enum LibiglError {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// The system's reason.
+        /// The reason given by the system.
         source: std::io::Error,
     },
     /// A temporary file of a call cannot be read or written.
@@ -94,13 +94,13 @@ pub enum LibiglError {
     Exchange {
         /// The file or folder.
         path: PathBuf,
-        /// The system's reason.
+        /// The reason given by the system.
         source: std::io::Error,
     },
-    /// libigl's process failed; its traceback is in the lines.
+    /// The process of libigl failed; the lines have its traceback.
     #[error("libigl's {function} failed in {} ({status}):\n{}", python.display(), indent(lines))]
     Call {
-        /// The function called.
+        /// The function that was called.
         function: &'static str,
         /// The interpreter.
         python: PathBuf,
@@ -109,25 +109,25 @@ pub enum LibiglError {
         /// The last lines it printed.
         lines: Vec<String>,
     },
-    /// The answer file is not what `calls.py` writes.
+    /// The file with the answer is malformed.
     #[error("libigl's {function} gave no readable answer: {what}")]
     Answer {
-        /// The function called.
+        /// The function that was called.
         function: &'static str,
-        /// What is missing or wrong.
+        /// The fault in it.
         what: String,
     },
-    /// A triangle's vertex index that no vertex has.
+    /// A vertex index of a triangle is out of range.
     #[error("triangle {triangle} (0-based) names vertex {vertex}, there are {count} vertices")]
     TriangleIndex {
         /// The triangle.
         triangle: usize,
-        /// The index it has.
+        /// The vertex index.
         vertex: u32,
         /// Number of vertices.
         count: usize,
     },
-    /// A fixed vertex that does not exist.
+    /// The index of a fixed vertex is out of range.
     #[error("fixed vertex {vertex} (0-based) does not exist, there are {count} vertices")]
     FixedIndex {
         /// The index.
@@ -135,13 +135,13 @@ pub enum LibiglError {
         /// Number of vertices.
         count: usize,
     },
-    /// A vertex fixed twice; libigl would crash.
+    /// A vertex is fixed twice, on which libigl crashes.
     #[error("vertex {vertex} (0-based) is fixed twice")]
     FixedTwice {
         /// The vertex.
         vertex: u32,
     },
-    /// Not one value per fixed vertex.
+    /// The numbers of values and of fixed vertices differ.
     #[error("{fixed} fixed vertices, but {values} values for them")]
     ValueCount {
         /// Number of fixed vertices.
@@ -149,13 +149,13 @@ pub enum LibiglError {
         /// Number of values.
         values: usize,
     },
-    /// Fewer than two fixed vertices: similarities are left free.
+    /// Fewer than two vertices are fixed, so that similarities remain free.
     #[error("{fixed} vertex fixed; a least-squares conformal map needs two")]
     TooFewFixed {
         /// Number of fixed vertices.
         fixed: usize,
     },
-    /// A position or value that is infinite or not a number.
+    /// A position or value is infinite or not a number.
     #[error("{what} {index} (0-based) is not finite")]
     NotFinite {
         /// "position of vertex", "value of fixed vertex" or "libigl's result at vertex".
@@ -163,7 +163,7 @@ pub enum LibiglError {
         /// Its index.
         index: usize,
     },
-    /// A vertex that no path of edges joins to a fixed one: its value is not determined.
+    /// A vertex has no path of edges to a fixed one, so that its value is not determined.
     #[error(
         "vertex {vertex} (0-based) is not joined to any fixed vertex: its value is free. \
          Map connected surfaces only, without unreferenced vertices."

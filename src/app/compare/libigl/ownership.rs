@@ -4,14 +4,14 @@ use std::path::Path;
 
 use super::LibiglError;
 
-/// Fails unless the folder of an environment, and what in it is executed, belong to the user and can be written by nobody
-/// else. A folder that is not there is not refused: it will be made.
+/// Fails unless the folder of an environment and its programs belong to the user and cannot be
+/// written by anybody else. A folder that does not exist is accepted, and created later.
 ///
 /// # Errors
 /// [`LibiglError::NotOwn`], [`LibiglError::Io`].
 pub(super) fn check(folder: &Path) -> Result<(), LibiglError> {
-    // The group matters for the folder alone, which then keeps it from what is inside: where every user has a group of their
-    // own, Python makes what is inside writable for it.
+    // The group matters for the folder alone, which then keeps it from what is inside: where every
+    // user has a group of their own, Python makes what is inside writable for it.
     for (path, others) in [(folder.to_owned(), 0o022), (folder.join("bin"), 0o002), (folder.join("pyvenv.cfg"), 0o002)]
     {
         match fs::metadata(&path) {
@@ -24,7 +24,7 @@ pub(super) fn check(folder: &Path) -> Result<(), LibiglError> {
     Ok(())
 }
 
-/// Takes the folder's permissions from everybody else.
+/// Removes the permissions of everybody else from the folder.
 ///
 /// # Errors
 /// [`LibiglError::Io`].

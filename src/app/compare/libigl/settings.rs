@@ -2,19 +2,20 @@ use std::env;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf, absolute};
 
-/// Which interpreter runs libigl, and where and by what its environment is made.
+/// The interpreter that runs libigl, or the folder of its environment and the interpreter that
+/// creates it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// An interpreter that has libigl; the other fields then have no effect.
+    /// An interpreter that has libigl; the other fields are then ignored.
     pub interpreter: Option<PathBuf>,
-    /// The folder of the environment. Beside it lies a file with the suffix `.lock`.
+    /// The folder of the environment, beside which there is a file with the suffix `.lock`.
     pub folder: PathBuf,
-    /// The interpreter that makes the environment; `None`: `python3`, then `python`.
+    /// The interpreter that creates the environment; `None` means `python3`, then `python`.
     pub maker: Option<PathBuf>,
 }
 
 impl Settings {
-    /// From the variables listed at [`crate::app::compare::libigl`].
+    /// Reads the environment variables listed at [`crate::app::compare::libigl`].
     pub fn from_variables() -> Settings {
         let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty());
         let home = env::home_dir().unwrap_or_else(env::temp_dir);
@@ -27,19 +28,21 @@ impl Settings {
         }
     }
 
-    /// The default choice of interpreter with the environment in `folder`.
+    /// Returns the default interpreter with the environment in `folder`.
     pub fn in_folder(folder: &Path) -> Settings {
         Settings { interpreter: None, folder: whole(folder), maker: None }
     }
 }
 
-/// The user's folder for caches: `$XDG_CACHE_HOME`, where it is an absolute path as its specification demands, else
-/// `~/.cache`. Never a folder below the working directory, whose programs may be anybody's.
+/// Returns the user's cache folder: `$XDG_CACHE_HOME` if it is an absolute path, as its
+/// specification demands, otherwise `~/.cache`. A folder below the working directory is never used,
+/// because its programs may be anybody's.
 fn user_cache(variable: Option<OsString>, home: PathBuf) -> PathBuf {
     variable.map(PathBuf::from).filter(|folder| folder.is_absolute()).unwrap_or_else(|| home.join(".cache"))
 }
 
-/// A bare name is looked up in `PATH`; a path is made absolute, for calls run in a temporary folder.
+/// Makes a path absolute, because calls run in a temporary folder. A bare name remains as it is and
+/// is found in `PATH`.
 pub(crate) fn program(name: impl Into<PathBuf>) -> PathBuf {
     let path = name.into();
     if path.components().count() > 1 { whole(&path) } else { path }
