@@ -1,38 +1,16 @@
-//! Riemap: discrete conformal maps of quad meshes, triangle meshes and digital surfaces, after Cartade, Mercat,
-//! Malgouyres, Samir, *Mesh Parameterization with Generalized Discrete Conformal Maps* (J. Math. Imaging Vis. 46, 2013).
+//! Riemap computes discrete conformal maps of quad meshes, triangle meshes and digital surfaces, after Cartade,
+//! Mercat, Malgouyres, Samir, *Mesh Parameterization with Generalized Discrete Conformal Maps* (J. Math. Imaging
+//! Vis. 46, 2013).
 //!
-//! Every quad carries one complex number ρ, made of its diagonals, and a map z of the vertices is *discrete conformal* when
-//! on every quad
+//! Every quad carries one complex number ρ, computed from its diagonals. A map z of the vertices is *discrete
+//! conformal* if on every quad
 //!
 //! ```text
 //! z3 − z1 = iρ (z2 − z0)                                                     (2)
 //! ```
 //!
-//! A triangle mesh becomes such a *quad graph* by a dual vertex per face; one quad stands for each edge. The boundary of a set of
-//! voxels is one with squares for quads, seen along estimated normals.
-//!
-//! # The pipeline
-//!
-//! Data flows one way, and nothing imports what comes after it:
-//!
-//! ```text
-//! surface → quad graph → conformal Laplacian, energies, constraints → problem → solver → map → distortion → report → figure
-//! ```
-//!
-//! | module | contents |
-//! |---|---|
-//! | [`surface`] | positions and polygons; the [diagnosis](surface::topology::diagnosis) of a surface; [`OrientedMesh`](surface::oriented_mesh::OrientedMesh) and how a surface is [cut](surface::cut) to a disc; [`digital`](surface::digital): voxels and their boundaries; estimated [`normals`](surface::normals); generated surfaces |
-//! | [`quad_graph`] | quads, ρ, boundary; rest lengths and areas; dual points |
-//! | [`laplacian`] | the conformal Laplacian: one complex symmetric matrix on half of the vertices, whose solutions are the maps with H = 0 |
-//! | [`energy`] | H, C, A, L, L', MIPS, SD with all derivatives; `H + 0.5 L` as an expression |
-//! | [`constraint`] | pinned vertices, shapes of the boundary, gauges; elimination x = Z y + x0 |
-//! | [`problem`] | the linear problem; the nonlinear one |
-//! | [`solver`] | direct solvers, minimisers, and Newton's method on the boundary values |
-//! | [`map`] | all of it in one call; maps of closed surfaces of genus 1 in [`periodic`](map::periodic) |
-//! | [`distortion`], [`report`], `figure` | how good a map is, its record, its picture |
-//! | [`io`], [`input`] | mesh files, volumes; surfaces by file or name |
-//! | `app` | the command line, experiments, comparisons with libigl, benchmarks (feature `cli`) |
-//! | `geometry`, `sparse` | exact predicates, polygons, Möbius maps; patterns and factors of sparse matrices |
+//! A triangle mesh becomes such a *quad graph* by one dual vertex in each face: one quad stands for each edge. The
+//! boundary of a set of voxels has squares for quads; ρ is measured on estimated tangent planes.
 //!
 //! # One map
 //!
@@ -51,7 +29,41 @@
 //! # Ok::<(), riemap::MapError>(())
 //! ```
 //!
-//! [`map_surface`] takes a checked [`Surface`], [`map_input`] an [`Input`]: a file, a volume or a generated surface.
+//! [`map()`] takes arrays, [`map_surface`] a checked [`Surface`], and [`map_input`] an [`Input`]: a mesh file, a
+//! volume or a generated surface. [`Flattener`] maps one surface many times by one factorisation. All of them return
+//! [`Mapped`]: the image of every vertex, its distortion, and whether the map is bijective, by exact predicates.
+//!
+//! [`MapOptions`] say what is wanted. Its most important choice is the [`Boundary`]: on the unit circle (the
+//! default), free with its own lengths, fixed, or none on a closed surface of genus 1, which is mapped with two
+//! periods. An [`Expression`] such as `H + 0.5 L` is minimised instead of the energy for which the boundary stands.
+//! A conformal map that flips a face is replaced by a bijective one, unless [`Valid::Off`](map::Valid::Off) is asked for.
+//!
+//! Energies, constraints and solvers of one's own are handed to a map at run time: see [`EnergyKind`],
+//! [`Constraint`], [`SolverChoice`](map::SolverChoice) and `examples/own_energy.rs`.
+//!
+//! # Where to find what
+//!
+//! Data flows one way, and no module imports one that comes later:
+//!
+//! ```text
+//! surface → quad graph → conformal Laplacian → energies, constraints → problem → solver → map → report → figure → app
+//! ```
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`surface`] | positions and polygons; the [diagnosis](surface::topology::diagnosis) of a surface; how it is [cut](surface::cut) to a disc; [`digital`](surface::digital) surfaces; estimated [`normals`](surface::normals); [generated](surface::generate) surfaces |
+//! | [`io`], [`input`] | mesh files and volumes; surfaces by file or name |
+//! | [`quad_graph`] | quads, ρ, boundary; rest lengths and areas; dual points |
+//! | [`laplacian`] | the conformal Laplacian, one complex symmetric matrix on half of the vertices: it has all maps that obey (2) |
+//! | [`energy`] | H, C, A, L, L', MIPS, SD with all derivatives. A new energy is one file and one row of [`ENERGIES`] |
+//! | [`constraint`] | pinned vertices, shapes of the boundary, gauges; the elimination x = Z y + x0 |
+//! | [`problem`] | the linear problem and the nonlinear one |
+//! | [`solver`] | [direct](solver::linear) solvers, [minimisers](solver::minimise), and Newton's method on the [boundary](solver::boundary) values, which computes circle maps and free maps |
+//! | [`map`] | `solve.rs` says which method is tried when; `bijective/` replaces a map that flips faces; [`periodic`](map::periodic) maps |
+//! | [`distortion`], [`report`], `figure` | how good a map is, its record, its picture (feature `figure`) |
+//! | `app` | the command line, experiments, comparisons with libigl, benchmarks (feature `cli`) |
+//!
+//! Without its default features the library needs neither a command line nor a plotting library.
 //!
 //! # The paper's equations
 //!
@@ -69,8 +81,8 @@
 //! | §3.2 boundary on a circle by arc length | [`constraint::on_circle`] |
 //! | §3.3 the vertices that must be pinned | [`constraint::hold_gauge`], [`constraint::spread_points`] |
 //!
-//! The printed H has no i before ρ, A's first term lost a conjugate, and the cotangents a factor ½; here they are as they
-//! must be.
+//! In print H lacks the i before ρ, the first term of A a conjugate, and the cotangents a factor ½; here they are
+//! corrected.
 
 #[cfg(feature = "cli")]
 pub mod app;
@@ -96,11 +108,8 @@ pub use num_complex;
 
 pub use constraint::Constraint;
 pub use energy::{ENERGIES, Energy, EnergyKind, Expression};
-pub use input::{Input, InputError};
-pub use map::{
-    Boundary, Flattener, Map, MapError, MapOptions, Mapped, Pin, PinnedPoints, TextureCoordinates, Tiling, Valid, map,
-    map_input, map_surface,
-};
+pub use input::Input;
+pub use map::{Boundary, Flattener, MapError, MapOptions, Mapped, Pin, Valid, map, map_input, map_surface};
 pub use quad_graph::dual::{DUAL_POINTS, DualPoint};
 pub use report::Report;
 pub use solver::{LINEAR_SOLVERS, LinearSolver, MINIMISERS, Minimiser, Observer, Silent};

@@ -7,11 +7,14 @@ use crate::constraint::Fixed;
 use crate::solver::Observer;
 use crate::solver::convex::{ConvexSolution, Towards, convex_map, edge_weights, outward};
 
-/// The weights that are tried where rounding has spoiled the map by others.
+/// The name of the weights that are tried if rounding has spoiled the map by others.
 const LAST_RESORT: &str = "outward";
 
-/// Their parameters, in turn. Towards all, 0.1 suits fingers; where 3 boundary vertices bound 10⁴ vertices thousands of faces fold with it, and
-/// none with 0.3. Towards one, rings of three vertices stay as large as they are.
+/// The parameters of these weights, tried in turn.
+///
+/// # Rationale
+/// Towards all nearer neighbours, 0.1 suits fingers; if 3 boundary vertices bound 10⁴ vertices, it flips thousands of
+/// faces and 0.3 none. Towards one neighbour, rings of three vertices keep their size.
 const OUTWARD: [(Towards, f64); 7] = [
     (Towards::All, 0.1),
     (Towards::All, 0.3),
@@ -23,7 +26,8 @@ const OUTWARD: [(Towards, f64); 7] = [
 ];
 
 impl Domain {
-    /// Of a map and those by outward weights the first one that is accepted, with its name; where none is, the map.
+    /// Returns the first map that is accepted among `first` and those with outward weights, and its name; `first` if
+    /// none is accepted.
     pub(super) fn first_accepted(
         &self,
         first: (ConvexSolution, &'static str),
@@ -43,11 +47,14 @@ impl Domain {
         Ok(first)
     }
 
-    /// The vertices of the mesh under a convex combination map that is one-to-one, exactly: of those by mean-value weights, by outward
-    /// ones, by uniform ones the first that `suits`, else the first.
+    /// Computes a convex combination map that is bijective by exact predicates; returns the images of the mesh vertices.
+    ///
+    /// Mean-value, outward and uniform weights are tried in turn. The result is the first bijective map that `suits`,
+    /// or else the first bijective one.
     ///
     /// # Errors
-    /// None is: the boundary is held on no convex curve, double precision does not suffice, or two quads share two edges.
+    /// No such map is found: the boundary is not pinned on a convex curve, double precision does not suffice, or two
+    /// quads share two edges.
     pub(super) fn convex_start(
         &self,
         fixed: &Fixed,
@@ -76,14 +83,14 @@ impl Domain {
         };
         let (first, name) = match map_by("mean-value", watch) {
             Ok(solution) => (solution, "mean-value"),
-            // Where an angle is 0 or π weights that see no geometry are left.
+            // If an angle is 0 or π, only weights that do not depend on geometry are left.
             Err(_) => (map_by("uniform", watch)?, "uniform"),
         };
         let (solution, _) = self.first_accepted((first, name), fixed, &mut accepts, watch)?;
         if accepts(&solution.z) {
             return Ok(solution.z);
         }
-        // Weights that see no geometry last: they are drawn outward nowhere, and least where the boundary is short.
+        // Uniform weights come last: they shrink the interior most if the boundary is short.
         if name != "uniform" {
             let uniform = map_by("uniform", watch)?;
             if accepts(&uniform.z) {
@@ -98,7 +105,8 @@ impl Domain {
         Err(MapError::NoValidStart { folded: folded.len(), first: folded.first().copied(), smallest })
     }
 
-    /// The vertices inside a quad mesh that have two faces: an angle of one of them is π at least under every map.
+    /// Returns the inner vertices of a quad mesh with two faces: under every map one of the two has an angle of at least
+    /// π there.
     fn doublets(&self) -> Vec<u32> {
         if self.is_of_triangles() {
             return Vec::new();
@@ -109,7 +117,7 @@ impl Domain {
         (0..faces.len() as u32).filter(|&v| faces[v as usize] == 2).collect()
     }
 
-    /// The shortest edge of an image over its extent.
+    /// Returns the length of the shortest edge of an image, relative to its extent.
     fn smallest_edge(&self, z: &[Complex64]) -> f64 {
         let faces = &self.disc.faces;
         let edges = faces.iter().flat_map(|f| (0..f.len()).map(|k| [f[k], f[(k + 1) % f.len()]]));

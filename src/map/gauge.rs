@@ -1,4 +1,4 @@
-//! What is held while an energy is minimised.
+//! The vertices that are pinned while an energy is minimised.
 
 use num_complex::Complex64;
 
@@ -7,10 +7,11 @@ use super::setup::Setup;
 use crate::constraint::{Fixed, hold_gauge, spread_points};
 use crate::quad_graph::QuadGraph;
 
-/// What is held while the energy is minimised (design: the table of §3), at the places of `z`.
+/// Returns the vertices that are pinned while the energy is minimised (design: the table of §3), at their positions in
+/// `z`.
 ///
 /// # Errors
-/// Pins that are not in use; a shape that the boundary is too short for.
+/// A pinned vertex is not in use; the boundary has too few vertices for its shape.
 pub(super) fn held(setup: &Setup, z: &[Complex64]) -> Result<Fixed, MapError> {
     let Setup { options, domain, expression, normalisation, .. } = setup;
     let (disc, graph) = (&domain.disc, &domain.graph);
@@ -37,8 +38,8 @@ pub(super) fn held(setup: &Setup, z: &[Complex64]) -> Result<Fixed, MapError> {
     Ok(fixed)
 }
 
-/// Holds what rigid motions leave free where no other gauge does (energies of lengths), or similarities (of angles alone), at the mesh's
-/// boundary: a vertex and the direction from it to the farthest one, see [`hold_gauge`]; or two vertices opposite each other.
+/// Removes rigid motions (if the energy fixes the scale) or similarities (if not), at the boundary of the mesh: pins a
+/// vertex and the direction to the farthest one, see [`hold_gauge`]; or two opposite vertices.
 pub(super) fn hold_mesh_gauge(fixed: &mut Fixed, fixes_scale: bool, graph: &QuadGraph, z: &[Complex64]) {
     let at = |v: u32| z[v as usize];
     if fixes_scale {
@@ -47,7 +48,7 @@ pub(super) fn hold_mesh_gauge(fixed: &mut Fixed, fixes_scale: bool, graph: &Quad
         let away = |v: u32| (at(v) - at(first)).norm();
         fixed.hold(first, at(first));
         if let Some(far) = mesh.max_by(|&v, &w| away(v).total_cmp(&away(w))) {
-            // From where the vertex is: then it stays there exactly.
+            // The line begins at the vertex itself, which then stays there exactly.
             fixed.hold_on_line(far, at(far), at(far) + (at(far) - at(first)));
         }
     } else {

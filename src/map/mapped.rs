@@ -12,21 +12,21 @@ use crate::surface::topology::diagnosis::Finding;
 pub struct Mapped {
     /// Number of vertices of the source, those included that no face uses.
     pub source_vertices: usize,
-    /// What was found about the surface, none of it fatal.
+    /// The findings of the diagnosis, none of them fatal.
     pub findings: Vec<Finding>,
-    /// Its one component.
+    /// The component that was mapped.
     pub component: Component,
-    /// What was done to make it a disc.
+    /// The cuts, fillings and removals that made it a disc.
     pub cut: CutRecord,
     /// The surface as it was mapped, with its quad graph.
     pub domain: Domain,
     /// The map.
     pub map: Map,
-    /// Periodic maps: the periods, and how the faces lie beside each other.
+    /// The periods and the layout of the faces, for periodic maps.
     pub torus: Option<PeriodicMap>,
-    /// Its distortion.
+    /// The distortion of the map.
     pub distortion: Distortion,
-    /// Whether it is bijective, by exact predicates.
+    /// Whether the map is bijective, by exact predicates.
     pub validity: Validity,
 }
 
@@ -44,20 +44,20 @@ impl Mapped {
         uv
     }
 
-    /// The same surface with another map, without periods, measured anew.
+    /// Returns the same surface with another map, without periods, measured anew.
     #[must_use]
     pub fn with(self, map: Map) -> Self {
         let (distortion, validity) = measure(&self.domain, &map, None);
         Mapped { map, torus: None, distortion, validity, ..self }
     }
 
-    /// Where the map puts the corners of faces and quads.
+    /// The images of the corners of faces and quads.
     pub fn image(&self) -> Image<'_> {
         image(&self.map, self.torus.as_ref())
     }
 }
 
-/// The distortion of a map, and whether it is bijective.
+/// Measures the distortion of a map, and tests whether it is bijective.
 pub(super) fn measure(domain: &Domain, map: &Map, torus: Option<&PeriodicMap>) -> (Distortion, Validity) {
     let image = image(map, torus);
     let mut distortion = Distortion::new(&domain.disc, &domain.graph, domain.planes.as_ref(), &image);
@@ -67,7 +67,7 @@ pub(super) fn measure(domain: &Domain, map: &Map, torus: Option<&PeriodicMap>) -
     (distortion, Validity::new(&domain.disc, |c| image.corner(&domain.disc, c)))
 }
 
-/// Where a map puts corners.
+/// The images of corners under a map.
 fn image<'a>(map: &'a Map, torus: Option<&'a PeriodicMap>) -> Image<'a> {
     Image { z: &map.z, cover: torus.map(|torus| (&torus.periods, torus.omega())) }
 }

@@ -1,4 +1,4 @@
-//! The boundary points of a circle map that are held, so that the map is unique.
+//! The boundary points that are pinned to make a circle map unique.
 
 use std::f64::consts::TAU;
 
@@ -11,23 +11,24 @@ use crate::energy::Expression;
 use crate::quad_graph::QuadGraph;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// Largest distance of a pinned boundary vertex from the unit circle: places are often typed with three digits.
+/// The largest distance of a pinned boundary vertex from the unit circle: positions are often typed with three digits.
 const PIN_ON_CIRCLE: f64 = 1e-3;
 
-/// Points of a circle map that are held: positions on the boundary with their angles, ascending.
+/// The normalisation points of a circle map, in ascending order along the boundary.
 #[derive(Default)]
 pub(super) struct Normalisation {
-    /// Positions on the boundary, and angles.
+    /// The boundary indices of the points and their angles.
     pub points: Vec<(usize, f64)>,
     /// Whether the angles are those of the exact map of the surface.
     pub exact: bool,
 }
 
 impl Normalisation {
-    /// The points that are held, and where; none unless the map is one to the unit circle. `exact` are exact conformal coordinates.
+    /// Chooses the points and their angles; none unless the map is a circle map. `exact` are exact conformal
+    /// coordinates.
     ///
     /// # Errors
-    /// Another number of points than 2 or 3; pins that contradict the circle; a boundary without length.
+    /// Pins contradict the circle; the boundary has no length.
     pub fn new(
         options: &MapOptions,
         expression: &Expression,
@@ -57,7 +58,7 @@ impl Normalisation {
         Ok(Normalisation { points, exact: exact.is_some() })
     }
 
-    /// The points of pins on the boundary.
+    /// The points that pins and constraints prescribe on the boundary.
     fn of_pins(options: &MapOptions, disc: &OrientedMesh, graph: &QuadGraph) -> Result<Self, MapError> {
         let mut fixed = Fixed::default();
         options.hold(&mut fixed, disc, graph)?;
@@ -79,7 +80,7 @@ impl Normalisation {
         Ok(Normalisation { points: if points.is_empty() { vec![(0, 0.0)] } else { points }, exact: false })
     }
 
-    /// The vertices that are held, each on the unit circle.
+    /// The pinned vertices, each on the unit circle.
     pub fn fixed(&self, graph: &QuadGraph) -> Fixed {
         let mut fixed = Fixed::default();
         for &(k, angle) in &self.points {
@@ -88,16 +89,16 @@ impl Normalisation {
         fixed
     }
 
-    /// The points, or the first boundary vertex at angle 0 where there are none.
+    /// The points, or the first boundary vertex at angle 0 if there are none.
     pub fn or_first(&self) -> &[(usize, f64)] {
         if self.points.is_empty() { &[(0, 0.0)] } else { &self.points }
     }
 }
 
-/// The angles of places along the boundary, each larger than the one before, less than 2π in all.
+/// Returns the angles of positions along the boundary, increasing by less than 2π in all.
 ///
 /// # Errors
-/// The position of the first place that is out of order.
+/// The boundary index of the first position that is out of order.
 fn increasing_angles(places: impl Iterator<Item = (usize, Complex64)>) -> Result<Vec<(usize, f64)>, usize> {
     let mut points: Vec<(usize, f64)> = Vec::new();
     for (k, place) in places {

@@ -1,4 +1,4 @@
-//! How a map came about, as data.
+//! The history of a map: which solver found it, and what it replaces.
 
 /// The solver that found a map, what was tried before it, and what the map replaces.
 #[derive(Clone, Copy, Debug, PartialEq)]

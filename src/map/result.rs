@@ -6,17 +6,17 @@ use super::Provenance;
 use crate::constraint::Fixed;
 use crate::solver::Status;
 
-/// How the computation of a map ended.
+/// The ending of a computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// By a direct solver.
+    /// A direct solver solved the problem.
     Solved,
-    /// By iteration; see there.
+    /// An iterative solver ended with this status.
     Minimised(Status),
 }
 
 impl Ending {
-    /// As in reports.
+    /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Ending::Solved => "solved",
@@ -25,7 +25,7 @@ impl Ending {
     }
 }
 
-/// What a map meets exactly, where an energy would only draw it there.
+/// A condition that a map meets exactly, not only as the minimum of an energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exactly {
@@ -37,34 +37,34 @@ pub enum Exactly {
     Lengths,
 }
 
-/// A map and what is known of it.
+/// A map and the record of its computation.
 #[derive(Clone, Debug)]
 pub struct Map {
     /// The image of every vertex of the quad graph (`nv`).
     pub z: Vec<Complex64>,
-    /// The vertices that were held.
+    /// The pinned vertices.
     pub fixed: Fixed,
-    /// The energy that was minimised; `None` where its weights are undefined (Re ρ ≤ 0).
+    /// The energy; `None` if its weights are undefined (Re ρ ≤ 0).
     pub total: Option<f64>,
-    /// Its terms, without their coefficients.
+    /// The terms of the energy, without their coefficients.
     pub energies: Vec<(&'static str, f64)>,
     /// |∇E| over the free unknowns, Euclidean.
     pub gradient_norm: Option<f64>,
-    /// How it came about.
+    /// The solver that found it, and what was tried before.
     pub provenance: Provenance,
-    /// How it ended.
+    /// How the computation ended.
     pub ending: Ending,
-    /// Iterations, of all stages.
+    /// The number of iterations of all stages.
     pub iterations: usize,
-    /// Direct solvers: the relative residual reached, of (2) where that is square, else of the normal equations.
+    /// The relative residual of a direct solver: of (2) if that is square, else of the normal equations.
     pub residual: Option<f64>,
-    /// Circle maps: the smallest singular value of the Jacobian of the residuals.
+    /// The smallest singular value of the Jacobian of the residuals, for circle maps.
     pub smallest_singular_value: Option<f64>,
-    /// Whether the boundary was to be on the unit circle.
+    /// Whether the boundary is to be on the unit circle.
     pub on_circle: bool,
-    /// Whether the held points are where the exact map of the surface has them.
+    /// Whether the pinned points are at their positions under the exact map of the surface.
     pub anchored: bool,
-    /// What was solved for exactly; `None`: the energy's minimum.
+    /// The condition that is met exactly; `None` for the minimum of an energy.
     pub exactly: Option<Exactly>,
     /// Circle maps with H = 0: half the difference ε of the squared radii, `|b|² = 1 + ε` on black and `|w|² = 1 − ε` on white
     /// boundary points before the map is scaled.
@@ -72,7 +72,7 @@ pub struct Map {
 }
 
 impl Map {
-    /// The map z of a direct solver, H its only energy where `h` is known; nothing else is said of it.
+    /// The map z of a direct solver, with H as its only energy if `h` is known.
     pub(crate) fn solved(solver: &'static str, z: Vec<Complex64>, fixed: Fixed, h: Option<f64>) -> Map {
         Map {
             z,

@@ -14,12 +14,12 @@ use crate::geometry::polygon::out_of_order;
 use crate::solver::Observer;
 use crate::solver::boundary::{BoundaryError, TwoCirclesError};
 
-/// Circle maps of larger quad meshes keep a boundary that is out of order, unless order is asked for: the factor of the minimiser takes
-/// eight times the memory.
+/// Circle maps of larger quad meshes keep a boundary that is out of order, unless order is asked for: the factor of the
+/// minimiser needs eight times the memory.
 const MOST_FOR_MINIMISER: usize = 300_000;
 
-/// The map of a domain. `factor` keeps the factor of its conformal Laplacian, `exact` are exact conformal coordinates, one pair for each
-/// vertex of the source.
+/// Computes the map of a domain. `factor` keeps the factor of its conformal Laplacian; `exact` are exact conformal
+/// coordinates, one pair for each vertex of the source.
 pub(super) fn solve(
     options: &MapOptions,
     domain: &Domain,
@@ -52,7 +52,7 @@ pub(super) fn solve(
     }
 }
 
-/// The minimum of the energy: by Newton's method on the boundary where that suits, else by a minimiser.
+/// Computes the minimum of the energy: by Newton's method on the boundary values if that suits, else by a minimiser.
 fn conformal(setup: &Setup, watch: &mut dyn Observer) -> Result<Map, MapError> {
     let options = setup.options;
     let (after, start) = match boundary::solve(setup, watch)? {
@@ -89,8 +89,8 @@ fn conformal(setup: &Setup, watch: &mut dyn Observer) -> Result<Map, MapError> {
     Ok(Map { provenance: Provenance { after, ..map.provenance }, ..map })
 }
 
-/// The conformal map if it is injective; else the same map with its flipped faces unflipped in place; else, or where there is no
-/// conformal map because the iterations did not converge, a bijective map of low quasi-conformal distortion.
+/// Returns the conformal map if it is injective; else the same map with its flipped faces unflipped in place; else, or
+/// if the iterations did not converge, a bijective map of low quasi-conformal distortion.
 fn injective(setup: &Setup, conformal: Result<Map, MapError>, watch: &mut dyn Observer) -> Result<Map, MapError> {
     let (kept, flipped, spent) = match conformal {
         Ok(map) => match setup.accepts(&map.z) {

@@ -4,17 +4,17 @@ use crate::map::periodic::Tiling;
 use crate::surface::Surface;
 use crate::surface::oriented_mesh::OrientedMesh;
 
-/// A map as texture coordinates of the surface that it was made from.
+/// Texture coordinates of a surface, read from its map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureCoordinates {
-    /// The pairs; 0 0 for what was not mapped.
+    /// The coordinate pairs; (0, 0) for unmapped vertices and corners.
     pub coordinates: Vec<[f64; 2]>,
-    /// For every corner of the source, face after face, its pair; `None` where every vertex has one pair.
+    /// The index of the pair of every corner of the source, face by face; `None` if every vertex has one pair.
     pub corners: Option<Vec<u32>>,
 }
 
 impl TextureCoordinates {
-    /// As writers take them.
+    /// The coordinates in the form that writers take.
     pub fn uv(&self) -> Uv<'_> {
         match &self.corners {
             None => Uv::PerVertex(&self.coordinates),
@@ -22,7 +22,7 @@ impl TextureCoordinates {
         }
     }
 
-    /// For every corner of `surface`, face after face, its pair.
+    /// Returns the pair of every corner of `surface`, face by face.
     pub fn of_corners(&self, surface: &Surface) -> Vec<[f64; 2]> {
         let pairs = self.corners.as_deref().unwrap_or(surface.faces.corners());
         pairs.iter().map(|&k| self.coordinates[k as usize]).collect()
@@ -30,8 +30,9 @@ impl TextureCoordinates {
 }
 
 impl Mapped {
-    /// The texture coordinates of `surface`, from which this was made: one pair per vertex where that is enough, pairs of
-    /// corners where the surface was cut, faces were left out (all their corners are at 0 0), or the map has periods. `tiling` is for the latter.
+    /// Returns the texture coordinates of `surface`, the source of this map: one pair for each vertex if that suffices;
+    /// pairs for corners if the surface was cut, if faces were removed (their corners are at (0, 0)), or if the map has
+    /// periods. `tiling` lays out maps with periods.
     pub fn texture_coordinates(&self, surface: &Surface, tiling: Tiling) -> TextureCoordinates {
         let (disc, map) = (&self.domain.disc, &self.map);
         let (mut coordinates, mut corners) = match &self.torus {

@@ -1,4 +1,4 @@
-//! The valid map onto the unit disc.
+//! The bijective map to the unit disc.
 
 use std::f64::consts::PI;
 
@@ -12,10 +12,10 @@ use crate::problem::nonlinear::Objective;
 use crate::solver::{Observer, Status};
 
 impl Repair<'_> {
-    /// MIPS with the boundary sliding on the circle, from a convex combination map; then again, with the boundary points held that the
-    /// plain map holds.
+    /// Minimises MIPS from a convex combination map, with the boundary sliding on the circle; then again, with the
+    /// boundary points pinned that the conformal map pins.
     ///
-    /// Where double precision does not suffice for the map with these points in their places, one is held, as far as to there.
+    /// If double precision does not suffice for the map with these points at their positions, only one is pinned.
     pub(super) fn circle(&self, watch: &mut dyn Observer) -> Result<Map, MapError> {
         let (stage, one) = self.least_shear(watch)?;
         let (stage, fixed, anchored) = match self.at_anchors(&stage) {
@@ -30,8 +30,8 @@ impl Repair<'_> {
         Ok(Map { on_circle: true, exactly: Some(Exactly::Circle), anchored, ..self.map(stage, fixed) })
     }
 
-    /// The image of a map of the disc by the Möbius map that takes the boundary points of the plain map to their places, and what is
-    /// held then; `None` where it is not one-to-one.
+    /// Moves a map by the Möbius map of the disc that takes the pinned boundary points to their positions. Returns it
+    /// with its pinned vertices, or `None` if it is not bijective.
     fn at_anchors(&self, stage: &Stage) -> Option<(Stage, Fixed)> {
         let graph = &self.setup.domain.graph;
         let fixed = self.setup.normalisation.fixed(graph);
@@ -46,7 +46,7 @@ impl Repair<'_> {
             return None;
         }
         let z = self.with_dual_vertices(z);
-        // Angles are rounded, and places that come from them.
+        // Angles are rounded, and so are the positions computed from them.
         let objective = self.shear(&fixed).ok()?;
         let y = objective.freedoms.restrict(&z);
         let total = Some(objective.value(&y)).filter(|total| total.is_finite())?;
@@ -56,14 +56,14 @@ impl Repair<'_> {
         Some((moved, fixed))
     }
 
-    /// The positions and places of the points that the plain map holds; a third one by arc length beside two.
+    /// Returns the boundary indices and positions of the pinned points; beside two of them a third, by arc length.
     fn three_points(&self) -> Option<[(usize, Complex64); 3]> {
         let (graph, points) = (&self.setup.domain.graph, &self.setup.normalisation.points);
         let mut three: Vec<(usize, Complex64)> = points.iter().map(|&(k, angle)| (k, Complex64::cis(angle))).collect();
         if let [(first, _), (second, _)] = points[..] {
             let n = graph.boundary.len();
             let arc = on_circle(graph, 1.0, points).ok()?;
-            // In the middle of the longer way.
+            // The third point halves the longer of the two ways.
             let (from, to) = if 2 * (second - first) > n { (first, second) } else { (second, first + n) };
             let mesh = (from + 1..to).map(|k| k % n).filter(|&k| !graph.is_dual(graph.boundary[k]));
             let middle: Vec<usize> = mesh.collect();
@@ -73,7 +73,8 @@ impl Repair<'_> {
         three.try_into().ok()
     }
 
-    /// The lowest MIPS on the disc. One boundary point is held: with three, long parts of the surface converge far more slowly.
+    /// Minimises MIPS on the disc with one pinned boundary point: with three, long parts of the surface converge far
+    /// more slowly.
     pub(super) fn least_shear(&self, watch: &mut dyn Observer) -> Result<(Stage, Fixed), MapError> {
         let graph = &self.setup.domain.graph;
         let whole = on_circle_apart(graph)?;
@@ -85,23 +86,23 @@ impl Repair<'_> {
             z.resize(graph.vertices, Complex64::ZERO);
             z
         };
-        // Angles are rounded, and places that come from them.
+        // Angles are rounded, and so are the positions computed from them.
         let suits = |z: &[Complex64]| objective.value(&objective.freedoms.restrict(&padded(z))).is_finite();
         let z = self.setup.domain.convex_start(&whole, &suits, watch)?;
         let stage = self.minimise(&objective, Stage::start(padded(&z)), watch)?;
         Ok((self.with_dual_vertices_placed(stage), fixed))
     }
 
-    /// The lowest MIPS near a stage, with these points held.
+    /// Minimises MIPS from a stage, with these points pinned.
     fn shear_less(&self, stage: Stage, fixed: &Fixed, watch: &mut dyn Observer) -> Result<Stage, MapError> {
         let stage = self.minimise(&self.shear(fixed)?, stage, watch)?;
         Ok(self.with_dual_vertices_placed(stage))
     }
 
-    /// MIPS of the mesh's own vertices, on a disc of area π.
+    /// The objective MIPS over the vertices of the mesh, scaled to a disc of area π.
     fn shear(&self, fixed: &Fixed) -> Result<Objective, MapError> {
         let graph = &self.setup.domain.graph;
-        // MIPS does not see dual vertices.
+        // MIPS does not depend on dual vertices.
         let mut held = fixed.clone();
         (graph.primal..graph.vertices).for_each(|v| held.hold(v as u32, Complex64::ZERO));
         let mesh: Vec<u32> = graph.boundary.iter().copied().filter(|&v| !graph.is_dual(v)).collect();
@@ -115,7 +116,8 @@ impl Repair<'_> {
         stage
     }
 
-    /// Dual vertices at the barycentres of the image's faces, those of boundary edges in the middle of their arcs.
+    /// Places dual vertices at the barycentres of the image's faces, and those of boundary edges at the midpoints of
+    /// their arcs.
     fn with_dual_vertices(&self, z: Vec<Complex64>) -> Vec<Complex64> {
         let graph = &self.setup.domain.graph;
         let mut z = self.setup.domain.with_dual_vertices(z, &Fixed::default());

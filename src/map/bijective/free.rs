@@ -1,4 +1,4 @@
-//! The valid map with a free boundary.
+//! The locally injective map with a free boundary.
 
 use num_complex::Complex64;
 
@@ -11,29 +11,32 @@ use crate::map::{Map, MapError, Valid};
 use crate::problem::nonlinear::Objective;
 use crate::solver::{Observer, Status};
 
-/// Coefficients of L', stage after stage: at first the boundary keeps its lengths, at last it may follow the shapes of the faces.
+/// The coefficients of L' of the stages: at first the boundary keeps its lengths, in the end it follows the shapes of
+/// the faces.
 const LENGTHS: [f64; 2] = [1.0, 1e-2];
 
-/// One more where nothing but the shear counts.
+/// The coefficient of one more stage if only the quasi-conformal distortion counts.
 const HARDLY: f64 = 1e-4;
 
-/// The coefficient of the barrier that keeps the boundary off itself.
+/// The coefficient of the barrier that keeps parts of the boundary apart.
 const CLEARANCE: f64 = 0.1;
 
-/// An iteration with it takes ten times as long as one without.
+/// An iteration with the barrier takes ten times as long as one without.
 const PATIENCE: Patience = Patience { faces_times_iterations: 1_500_000, iterations: 200..=1000 };
 
-/// Iterations after which the barrier is made anew: by then other parts of the boundary are near each other, and of another size.
+/// The number of iterations after which the barrier is rebuilt: by then other parts of the boundary are close to each
+/// other, and their size has changed.
 const ROUND: usize = 10;
 
 impl Repair<'_> {
-    /// MIPS + γ'L' over the mesh's own boundary edges, from the map onto the disc scaled to about the surface's area: no face folds, and far
-    /// parts of the boundary may overlap. Where the result does so and must not, or lies on itself around a vertex, once more with a
-    /// barrier between parts of the boundary: every iterate is then one-to-one.
+    /// Minimises MIPS + γ'L', L' over the boundary edges of the mesh, from the map to the disc scaled to about the area
+    /// of the surface. No face is flipped, but distant parts of the boundary may overlap. If they do and must not, or
+    /// if the map winds around a boundary vertex, the minimisation is repeated with a barrier between parts of the
+    /// boundary; every iterate is then bijective.
     pub(super) fn free(&self, watch: &mut dyn Observer) -> Result<Map, MapError> {
         let graph = &self.setup.domain.graph;
         let (mut disc, _) = self.least_shear(watch)?;
-        // By a power of two: nothing is rounded.
+        // A power of two, so that nothing is rounded.
         let scale =
             2f64.powf((0.5 * (self.metric.surface_area() / self.setup.domain.image_area(&disc.z)).log2()).round());
         disc.z.iter_mut().for_each(|z| *z *= scale);
@@ -52,7 +55,7 @@ impl Repair<'_> {
         Ok(self.map(stage, fixed))
     }
 
-    /// The minimum of MIPS + γ'L' near a stage, for one γ' after the other.
+    /// Minimises MIPS + γ'L' from a stage, for one γ' after the other.
     fn flatten(
         &self,
         mut stage: Stage,
@@ -62,7 +65,7 @@ impl Repair<'_> {
     ) -> Result<Stage, MapError> {
         let lengths = match overlaps {
             Overlaps::Allowed => &LENGTHS[..],
-            // A boundary that must become longer at once is crumpled, and so jams.
+            // A boundary that must become longer at once would crumple and jam.
             Overlaps::Barred => &LENGTHS[1..],
         };
         let last = (self.setup.options.valid == Valid::BestQc).then_some(HARDLY);
@@ -78,7 +81,7 @@ impl Repair<'_> {
         Ok(stage)
     }
 
-    /// The same for one γ', the boundary kept off itself.
+    /// Minimises MIPS + γ'L' for one γ', with parts of the boundary kept apart.
     fn minimise_apart(
         &self,
         coefficient: f64,
@@ -98,7 +101,7 @@ impl Repair<'_> {
         }
     }
 
-    /// MIPS + γ'L'.
+    /// The objective MIPS + γ'L'.
     fn flat(&self, coefficient: f64, held: &Fixed) -> Result<Objective, MapError> {
         let mut terms = self.mips(self.metric.surface_area())?;
         terms.push((coefficient, Box::new(Metric::mesh_boundary_edges(self.rest(&[], Weight::Integral)))));
@@ -106,7 +109,7 @@ impl Repair<'_> {
     }
 }
 
-/// Whether far parts of a map may lie on each other.
+/// Whether distant parts of a map may overlap.
 #[derive(Clone, Copy)]
 enum Overlaps {
     Allowed,

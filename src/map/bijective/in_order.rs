@@ -1,14 +1,14 @@
-//! Boundary points put in order along the circle.
+//! Reordering of boundary points along the circle.
 
 use num_complex::Complex64;
 
 use super::patch::Patch;
 
-/// Puts the boundary points of the mesh in order: those of each block that no point outside it lies between, by their lengths at rest.
-/// Whether that is possible.
+/// Sorts the boundary points of the mesh along the circle. Points that are out of order are spread over the arc that
+/// they occupy, in proportion to their rest lengths. Returns false if that is not possible.
 pub(super) fn put_in_order(patch: &Patch, z: &mut [Complex64]) -> bool {
     let (edges, lengths) = (&patch.mesh_edges, &patch.mesh_lengths);
-    // From one vertex that is held to the next.
+    // From one pinned vertex to the next.
     let n = edges.len();
     let Some(first) = (0..n).find(|&k| patch.held[edges[k][0] as usize]) else { return n == 0 };
     let mut k = first;
@@ -31,7 +31,7 @@ pub(super) fn put_in_order(patch: &Patch, z: &mut [Complex64]) -> bool {
     true
 }
 
-/// Puts the inner points of a run along the circle in order between its ends; false where these are not.
+/// Sorts the inner points of a run along the circle between its ends; returns false if the ends are out of order.
 fn order_run(run: &[u32], arc: &[f64], z: &mut [Complex64]) -> bool {
     let m = run.len();
     let mut angle = vec![z[run[0] as usize].arg()];
@@ -54,7 +54,7 @@ fn order_run(run: &[u32], arc: &[f64], z: &mut [Complex64]) -> bool {
             continue;
         }
         if k > first {
-            // The block first ..= k, between its neighbours, or the ends of the run.
+            // The block first ..= k, between its neighbours or the ends of the run.
             let low = if first == 0 { 0 } else { first - 1 };
             let high = if k == m - 1 { m - 1 } else { k + 1 };
             let (from, to) = (last_of_before.unwrap_or(angle[0]), angle[high]);

@@ -1,7 +1,8 @@
 //! Bijective maps: they replace a conformal map that is not injective (design: §10).
 //!
-//! Everything starts from a convex combination map that passes the exact check, and goes on by Newton's method under an energy that is +∞
-//! where a face folds. So every iterate is valid, and a minimisation that is interrupted leaves a valid map.
+//! Every replacement starts from a convex combination map that passes the exact check. Newton's method then
+//! minimises an energy that is +∞ where a face is flipped. So every iterate is injective, and a minimisation that
+//! is interrupted leaves an injective map.
 
 mod circle;
 mod free;
@@ -25,10 +26,10 @@ use crate::quad_graph::metric::RestMetric;
 use crate::solver::minimise::Newton;
 use crate::solver::{self, MinimiseError, Minimiser, Observer, Status, StopRule};
 
-/// Name of the solver.
+/// The name of the solver in reports.
 const SOLVER: &str = "newton";
 
-/// Iterations of one stage at most, where nothing else is said: the less the larger the mesh is, within bounds.
+/// The default for the largest number of iterations of one stage: fewer for larger meshes, within bounds.
 struct Patience {
     faces_times_iterations: usize,
     iterations: RangeInclusive<usize>,
@@ -40,14 +41,14 @@ impl Patience {
     }
 }
 
-/// Long protrusions converge slowly, by a few per cent a step; what is reached by then is valid.
+/// Long protrusions converge slowly, by a few per cent a step; the map reached by then is injective.
 const PATIENCE: Patience = Patience { faces_times_iterations: 10_000_000, iterations: 150..=1000 };
 
-/// The conformal map `plain` with its flipped faces unflipped where they are, all else left as it is; `None` where that does not suffice;
-/// and the iterations of both.
+/// Unflips the flipped faces of the conformal map `plain` in place and leaves all others as they are. Returns `None`
+/// if that does not suffice; and the number of iterations of both.
 ///
 /// # Errors
-/// A factorisation that breaks down.
+/// A factorisation breaks down.
 pub(super) fn unflipped(
     setup: &Setup,
     plain: &Map,
@@ -62,11 +63,11 @@ pub(super) fn unflipped(
     Ok((found.map(|map| Map { iterations, provenance: of(map.clone()), ..map }), iterations))
 }
 
-/// A bijective map of low quasi-conformal distortion, computed anew after so many iterations of other methods. With a free boundary it
-/// may overlap itself, unless one-to-one maps are asked for.
+/// Computes a bijective map of low quasi-conformal distortion, after `spent` iterations of other methods. With a free
+/// boundary the map is locally injective, and bijective if that is asked for.
 ///
 /// # Errors
-/// No convex combination map that passes the exact check; a factorisation that breaks down.
+/// No convex combination map passes the exact check; a factorisation breaks down.
 pub(super) fn replacement(setup: &Setup, spent: usize, watch: &mut dyn Observer) -> Result<Map, MapError> {
     let Setup { options, domain, .. } = setup;
     watch.repair(solver::Repair::Whole);
@@ -80,20 +81,20 @@ pub(super) fn replacement(setup: &Setup, spent: usize, watch: &mut dyn Observer)
     Ok(Map { iterations: map.iterations + spent, ..map })
 }
 
-/// The point in the middle of the arc of the unit circle from a to b, counter-clockwise.
+/// Returns the midpoint of the counter-clockwise arc of the unit circle from a to b.
 fn middle_of_arc(a: Complex64, b: Complex64) -> Complex64 {
     a * Complex64::cis(0.5 * (b * a.conj()).arg().rem_euclid(2.0 * PI))
 }
 
-/// What a repair knows.
+/// The data of a replacement.
 struct Repair<'a> {
     setup: &'a Setup<'a>,
     metric: &'a RestMetric,
-    /// Iterations that are left, where there is a limit.
+    /// The number of iterations left, if there is a limit.
     left: Option<usize>,
 }
 
-/// A valid map on its way, and what is known of it.
+/// An injective map between two minimisations.
 #[derive(Clone)]
 struct Stage {
     z: Vec<Complex64>,
@@ -101,17 +102,17 @@ struct Stage {
     total: Option<f64>,
     gradient_norm: Option<f64>,
     status: Status,
-    /// Of all stages.
+    /// The number of iterations of all stages.
     iterations: usize,
 }
 
 impl Stage {
-    /// A map that nothing has been minimised on.
+    /// A map before any minimisation.
     fn start(z: Vec<Complex64>) -> Self {
         Stage { z, energies: Vec::new(), total: None, gradient_norm: None, status: Status::Precision, iterations: 0 }
     }
 
-    /// Whether nothing more is to be done, with so many iterations of all stages where there is a limit.
+    /// Whether the minimisation was interrupted, or the iterations of all stages are used up.
     fn is_over(&self, left: Option<usize>) -> bool {
         self.status == Status::Interrupted || left.is_some_and(|n| self.iterations >= n)
     }
@@ -122,8 +123,11 @@ impl Repair<'_> {
         Rest { graph: &self.setup.domain.graph, metric: self.metric, weight, held }
     }
 
-    /// MIPS as the mean over the faces, whatever their areas, times `unit`: that is what the mean of σ1/σ2 sees. Weighted by area the faces
-    /// of fine parts hardly count, and theirs is the shear.
+    /// The mean of MIPS over the faces, regardless of their areas, times `unit`.
+    ///
+    /// # Rationale
+    /// The mean of σ1/σ2 counts faces alike. Weighted by area, the small faces of fine parts hardly count, and these
+    /// are the most distorted.
     fn mips(&self, unit: f64) -> Result<Terms, MapError> {
         let mips = Mips::new(self.rest(&[], Weight::Unit))?;
         let faces: f64 = self.metric.triangles.iter().map(|t| t.share).sum();
@@ -134,12 +138,12 @@ impl Repair<'_> {
         Objective { terms, freedoms, norm: Dirichlet::new(&self.setup.domain.graph, Weight::Integral) }
     }
 
-    /// Goes on from `stage`, by as many iterations as are left.
+    /// Minimises from `stage`, by as many iterations as are left.
     fn minimise(&self, objective: &Objective, stage: Stage, watch: &mut dyn Observer) -> Result<Stage, MapError> {
         self.minimise_within(PATIENCE.with(self.setup.domain.disc.faces.len()), objective, stage, watch)
     }
 
-    /// The same by so many iterations at most.
+    /// Minimises from `stage` by at most `most` iterations.
     fn minimise_within(
         &self,
         most: usize,
@@ -150,12 +154,12 @@ impl Repair<'_> {
         minimise(objective, stage, Limits { left: self.left, most, gain: self.setup.options.tolerance }, watch)
     }
 
-    /// Whether the exact check accepts the map that a stage has reached.
+    /// Whether the exact check accepts the map of a stage.
     fn accepts(&self, stage: &Stage) -> bool {
         self.setup.accepts(&stage.z)
     }
 
-    /// The map that a stage has reached.
+    /// The map of a stage, with its record.
     fn map(&self, stage: Stage, fixed: Fixed) -> Map {
         Map {
             total: stage.total,
@@ -168,24 +172,25 @@ impl Repair<'_> {
     }
 }
 
-/// When a stage ends.
+/// The limits of one stage.
 struct Limits {
-    /// Iterations of all stages, where there is a limit.
+    /// The number of iterations left for all stages, if there is a limit.
     left: Option<usize>,
-    /// Iterations of this one at most.
+    /// The largest number of iterations of this stage.
     most: usize,
-    /// The share of the energy that a step must gain.
+    /// The least relative decrease of the energy by a step.
     gain: f64,
 }
 
-/// Goes on from `stage`. Where parts are so small that rounding folds a face as soon as places become unknowns, it stays where it is.
+/// Minimises from `stage`. If parts of the map are so small that rounding flips a face as soon as positions are
+/// converted to unknowns, the stage is returned as it is.
 fn minimise(objective: &Objective, stage: Stage, limits: Limits, watch: &mut dyn Observer) -> Result<Stage, MapError> {
     let start = objective.freedoms.restrict(&stage.z);
     if !objective.value(&start).is_finite() {
         return Ok(Stage { status: Status::Precision, ..stage });
     }
     let left = limits.left.map_or(limits.most, |n| limits.most.min(n.saturating_sub(stage.iterations)));
-    // What a step may gain decides: the gradient of a start with parts of the size 1e-20 is no measure.
+    // The decrease by a step decides: the gradient of a start with parts of the size 1e-20 is no measure.
     let rule = StopRule { tolerance: f64::MIN_POSITIVE, reference: None, max_iterations: Some(left) };
     let newton = Newton { smallest_gain: limits.gain };
     let minimum = match newton.minimise(objective, start, rule, watch) {

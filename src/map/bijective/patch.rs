@@ -1,4 +1,4 @@
-//! A part of a domain with a quad graph of its own, in which a map may move while it is held around it.
+//! A part of a domain with a quad graph of its own: the map may change inside and is pinned around it.
 
 use std::collections::HashMap;
 
@@ -12,23 +12,26 @@ use crate::quad_graph::metric::RestMetric;
 use crate::quad_graph::{QuadGraph, triangles_of_face};
 use crate::sparse::Lists;
 
-/// The faces around some of a domain, vertices numbered anew: first the mesh's, then dual ones.
+/// Some faces of a domain, with vertices numbered anew: first those of the mesh, then dual ones.
 pub(super) struct Patch {
-    /// What each vertex is in the domain.
+    /// The index in the domain of each vertex.
     pub vertices: Vec<u32>,
-    /// Those that do not move.
+    /// Whether each vertex is pinned.
     pub held: Vec<bool>,
-    /// The quads of which some vertex moves. Its boundary is what of the domain's lies in the patch, in order, arc behind arc: no loop.
+    /// The quads with a vertex that is not pinned. Its boundary is the part of the domain's boundary in the patch,
+    /// one arc after the other; it is not a loop.
     pub graph: QuadGraph,
-    /// The triangles of which some vertex moves, and nothing else.
+    /// The triangles with a vertex that is not pinned; all else is empty.
     pub metric: RestMetric,
-    /// The face of each of them, by its place among `faces`.
+    /// The index in `faces` of the face of each triangle.
     pub face_of_triangle: Vec<u32>,
-    /// The edges of that boundary, those of the quad graph and those of the mesh, and their lengths at rest.
+    /// The boundary edges of the quad graph in the patch.
     pub edges: Vec<[u32; 2]>,
+    /// The boundary edges of the mesh in the patch.
     pub mesh_edges: Vec<[u32; 2]>,
+    /// Their rest lengths.
     pub mesh_lengths: Vec<f64>,
-    /// The faces, ascending.
+    /// The faces of the domain in the patch, ascending.
     pub faces: Vec<u32>,
 }
 
@@ -60,7 +63,7 @@ impl FacesAt {
         &self.faces[self.offsets[v as usize] as usize..self.offsets[v as usize + 1] as usize]
     }
 
-    /// These faces and those within so many rings around them, ascending.
+    /// Returns these faces and those within `rings` rings around them, ascending.
     pub fn around(&self, domain: &Domain, faces: &[u32], rings: usize) -> Vec<u32> {
         let mut inside = vec![false; domain.disc.faces.len()];
         faces.iter().for_each(|&f| inside[f as usize] = true);
@@ -84,7 +87,8 @@ impl FacesAt {
 }
 
 impl Patch {
-    /// The patch of these faces, ascending. What `fixed` holds, and vertices with faces outside, do not move.
+    /// The patch of these faces, given in ascending order. Vertices in `fixed` and vertices with faces outside the
+    /// patch are pinned.
     pub fn new(domain: &Domain, (at, incidence): (&FacesAt, &Lists), faces: Vec<u32>, fixed: &Fixed) -> Self {
         let (disc, whole) = (&domain.disc, &domain.graph);
         let has_dual = whole.primal < whole.vertices;
@@ -112,7 +116,7 @@ impl Patch {
         let (mut edges, mut mesh_edges, mut mesh_lengths) = (Vec::new(), Vec::new(), Vec::new());
         let (mut boundary_length, n) = (Vec::new(), disc.boundary.len());
         let stride = whole.boundary.len() / n.max(1);
-        // From where the boundary enters the patch on, so that arcs are in one piece.
+        // Begin where the boundary enters the patch, so that every arc is in one piece.
         let face_of = |k: usize| {
             let [a, b] = [k % n, (k + 1) % n].map(|k| disc.boundary[k]);
             at.get(a).iter().find(|&&f| {
@@ -140,7 +144,7 @@ impl Patch {
         if boundary.len() > 1 && boundary.first() == boundary.last() {
             boundary.pop();
         }
-        // What moves first, then the corners of its quads that do not.
+        // First the vertices that are not pinned, then the pinned corners of their quads.
         let mut quads: Vec<u32> = Vec::new();
         for (&v, _) in vertices.iter().zip(&held).filter(|(_, held)| !**held) {
             quads.extend(incidence.of(v));
@@ -162,7 +166,7 @@ impl Patch {
             diagonal: quads.iter().map(|&q| whole.diagonal[q as usize]).collect(),
             tilted: 0,
             boundary,
-            // The patch is not mapped by its boundary: nothing asks for its loops.
+            // No method on the boundary is applied to a patch, so that its loops are not needed.
             loops: Vec::new(),
             boundary_length,
             places: Vec::new(),
@@ -184,24 +188,24 @@ impl Patch {
         Patch { vertices, held, graph, metric, face_of_triangle, edges, mesh_edges, mesh_lengths, faces }
     }
 
-    /// What energies are made from.
+    /// The data from which energies are made.
     pub fn rest(&self, weight: Weight) -> Rest<'_> {
         Rest { graph: &self.graph, metric: &self.metric, weight, held: &self.held }
     }
 
-    /// What a map of the domain is on the patch.
+    /// Restricts a map of the domain to the patch.
     pub fn restrict(&self, z: &[Complex64]) -> Vec<Complex64> {
         self.vertices.iter().map(|&v| z[v as usize]).collect()
     }
 
-    /// Writes what moves into a map of the domain.
+    /// Copies the positions of vertices that are not pinned into a map of the domain.
     pub fn write(&self, local: &[Complex64], z: &mut [Complex64]) {
         for ((&v, place), _) in self.vertices.iter().zip(local).zip(&self.held).filter(|(_, held)| !**held) {
             z[v as usize] = *place;
         }
     }
 
-    /// What does not move, held where `z` has it; `and` beside.
+    /// Pins the pinned vertices, and those for which `and` holds, at their positions in `z`.
     pub fn fixed(&self, z: &[Complex64], and: impl Fn(u32) -> bool) -> Fixed {
         let mut fixed = Fixed::default();
         for (v, place) in z.iter().enumerate().filter(|(v, _)| self.held[*v] || and(*v as u32)) {

@@ -1,4 +1,4 @@
-//! A plain map that folds few faces, unfolded around these and left as it is elsewhere.
+//! Local unflipping: a conformal map with few flipped faces is changed around these and kept elsewhere.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -21,45 +21,53 @@ use crate::quad_graph::area_at_rest;
 use crate::solver::{Observer, Repair, Status};
 use crate::surface::UnionFind;
 
-/// The share of MIPS beside H, both measured on a disc of area π. The less it is, the nearer the map is to the plain one: on 10⁴ jittered
-/// quads whose corners are opened to half a turn the mean of σ1/σ2 is 1.0357, 1.0260, 1.0149 and the largest 7.25, 7.32, 7.26 at shares of
-/// 0.1, 0.01, 0.001.
+/// The coefficient of MIPS beside H, both measured on a disc of area π.
+///
+/// # Rationale
+/// The smaller it is, the closer the map is to the conformal one. On 10⁴ jittered quads whose corners are opened to half a
+/// turn the mean of σ1/σ2 is 1.0357, 1.0260, 1.0149 and the largest 7.25, 7.32, 7.26 for 0.1, 0.01, 0.001.
 const SHARE_OF_MIPS: f64 = 1e-3;
 
-/// The coefficient of the barrier between neighbours on the boundary: without it dual points come so near each other that steps jam.
+/// The coefficient of the barrier between neighbours on the boundary: without it dual points come so close to each
+/// other that steps jam.
 const BARRIER: f64 = 1e-4;
 
-/// The largest mean of σ1/σ2 with which the plain map is kept around its folds. With more, what is best for the parts that fold is seldom
-/// near the plain map.
+/// The largest mean of σ1/σ2 for which the conformal map is kept around its flipped faces. Above it the best map of
+/// these parts is seldom close to the conformal one.
 const LARGEST_SHEAR: f64 = 1.05;
 
-/// Faces that are sheared by more than this are moved as if they folded.
+/// Faces with a larger σ1/σ2 are treated as if they were flipped.
 const SHEARED: f64 = 4.0;
 
-/// The largest share of the faces, folded or sheared, that it is tried with.
+/// The largest share of flipped or distorted faces for which local unflipping is tried.
 const LARGEST_SHARE_OF_FOLDS: f64 = 0.1;
 
-/// Rings of faces around those that fold, in turn, which may move.
+/// The numbers of rings of faces around flipped faces that may move, tried in turn.
 const RINGS: [usize; 3] = [4, 8, 16];
 
-/// The largest share of the faces that a patch may have. With more of them another map is to be looked for.
+/// The largest share of the faces in a patch. Beyond it another map is computed instead.
 const LARGEST_SHARE: f64 = 0.5;
 
-/// Weights ε of [`Unfolding`], stage after stage, at most; and iterations with each.
+/// The largest number of stages with decreasing ε of [`Unfolding`].
 const STAGES: usize = 15;
+
+/// The largest number of iterations of each of these stages.
 const ITERATIONS: usize = 10;
 
-/// The first ε and the least, as shares of the area that a triangle is to come to. With a large one all triangles shrink.
+/// The first ε, as a share of the target area of a triangle. With a large one all triangles shrink.
 const FIRST_SHARE: f64 = 0.1;
+
+/// The smallest ε, as a share of the target area of a triangle.
 const SMALLEST_SHARE: f64 = 1e-10;
 
-/// Iterations of the last stage at most.
+/// The largest number of iterations of the last stage.
 const MOST_AT_LAST: usize = 100;
 
-/// What a step must gain at least on the way.
+/// The least relative decrease of the energy by a step before the last stage.
 const GAIN_ON_THE_WAY: f64 = 1e-2;
 
-/// The map `plain` without folds, where it can be had by moving vertices around these; beside it the iterations made.
+/// Unflips the map `plain` by moving vertices around its flipped faces. Returns the map, or `None` if that does not
+/// suffice, and the number of iterations.
 pub(super) fn around_flipped(
     setup: &Setup,
     plain: &Map,
@@ -71,7 +79,7 @@ pub(super) fn around_flipped(
         return Ok((None, 0));
     }
     let count = domain.disc.faces.len() as f64;
-    // Boundary points that are only drawn to the circle have no place to slide on.
+    // Boundary points that are only drawn to the circle have no curve to slide on.
     if options.boundary.is_circle() && !matches!(plain.exactly, Some(Exactly::Circle | Exactly::Conformal)) {
         return Ok((None, 0));
     }
@@ -128,7 +136,7 @@ pub(super) fn around_flipped(
     let h = conformal::value(graph, &conformal::weights(graph, options.weight)?, &z);
     let (name, other, exactly) = match options.boundary {
         Boundary::Circle { .. } => ("C", circle_energy(graph, &plain.fixed, &z), Some(Exactly::Circle)),
-        // Boundary edges that have moved may have other lengths.
+        // Boundary edges that have moved may have changed their lengths.
         _ => ("Lb", length_energy(graph, &z), None),
     };
     let map = Map {
@@ -148,7 +156,7 @@ pub(super) fn around_flipped(
     Ok((Some(map), spent))
 }
 
-/// The faces in groups that have no vertex in common, each ascending.
+/// Groups the faces such that no two groups share a vertex; each group is ascending.
 fn components(domain: &Domain, faces: &[u32]) -> Vec<Vec<u32>> {
     let polygon = |f: u32| domain.disc.faces.get(f as usize);
     let mut sets = UnionFind::new(domain.disc.positions.len());
@@ -162,13 +170,13 @@ fn components(domain: &Domain, faces: &[u32]) -> Vec<Vec<u32>> {
     groups.into_values().collect()
 }
 
-/// Of how two minimisations ended, what is to be said of both.
+/// Returns the worse of two statuses.
 fn worse(a: Status, b: Status) -> Status {
     let order = [Status::Interrupted, Status::MaxIterations, Status::Precision];
     order.into_iter().find(|status| a == *status || b == *status).unwrap_or(Status::Converged)
 }
 
-/// The faces that a map shears by more than [`SHEARED`], and the mean of σ1/σ2 of the others.
+/// Returns the faces with σ1/σ2 above [`SHEARED`], and the mean of σ1/σ2 over the others.
 fn shear(domain: &Domain, z: &[Complex64]) -> (Vec<u32>, f64) {
     let maps = face_maps(&domain.disc, &domain.graph, &Image::of_disc(z));
     let (mut sheared, mut sum, mut count) = (Vec::new(), 0.0, 0usize);
@@ -184,7 +192,8 @@ fn shear(domain: &Domain, z: &[Complex64]) -> (Vec<u32>, f64) {
     (sheared, sum / count as f64)
 }
 
-/// The faces that are to be put right: beside those that are sheared those that fold, and at the boundary of a circle those between points out of order.
+/// Returns the faces that must change: `sheared`, the flipped ones, and on the circle those at boundary points that
+/// are out of order.
 fn seeds(options: &MapOptions, domain: &Domain, at: &FacesAt, z: &[Complex64], sheared: Vec<u32>) -> Vec<u32> {
     let disc = &domain.disc;
     let mut seeds = sheared;
@@ -203,19 +212,19 @@ fn seeds(options: &MapOptions, domain: &Domain, at: &FacesAt, z: &[Complex64], s
     seeds
 }
 
-/// What is the same for all patches.
+/// The data common to all patches.
 struct Work<'a> {
     options: &'a MapOptions,
-    /// Of the whole surface.
+    /// The area of the whole surface.
     area: f64,
-    /// Of all of its boundary.
+    /// The length of the whole boundary.
     perimeter: f64,
-    /// Iterations that are left, where there is a limit.
+    /// The number of iterations left, if there is a limit.
     left: Option<usize>,
 }
 
 impl Work<'_> {
-    /// The patch without folds, and the iterations made, `spent` of them before.
+    /// Unflips a patch. Returns it, or `None`, and the number of iterations, including `spent` earlier ones.
     fn solve(
         &self,
         patch: &Patch,
@@ -254,7 +263,8 @@ impl Work<'_> {
         Objective { terms, freedoms, norm: Dirichlet::new(graph, Weight::Integral) }
     }
 
-    /// By an energy that is finite on folds, ever less so. The boundary of a circle stays where it is.
+    /// Minimises energies that are finite for flipped faces and grow for them from stage to stage. Points on the circle
+    /// stay where they are.
     fn unfold(&self, patch: &Patch, mut stage: Stage, watch: &mut dyn Observer) -> Result<Stage, MapError> {
         let mips = Mips::new(patch.rest(Weight::Integral))?;
         let triangles = Unfolding::triangles(patch.rest(Weight::Integral))?;
@@ -273,7 +283,7 @@ impl Work<'_> {
             let after = energy(&stage.z);
             let lowest =
                 triangles.area_ratios(&stage.z).iter().zip(&scale).map(|(j, s)| j / s).fold(f64::INFINITY, f64::min);
-            // Garanzha et al., with σ the share of the energy that has been gained; Newton's steps gain most of it.
+            // Garanzha et al. 2021, with σ the relative decrease of the energy; Newton steps achieve most of it.
             let gained = (1.0 - after / before).max(0.5);
             let root = f64::hypot(lowest, share);
             let chi = 0.5 * (lowest + root);
@@ -284,7 +294,7 @@ impl Work<'_> {
         Ok(stage)
     }
 
-    /// H and a little MIPS, on the circle; of a free map, boundary lengths beside.
+    /// Minimises H and a little MIPS; for free maps also L'.
     fn finish(&self, patch: &Patch, mut stage: Stage, mips: Mips, watch: &mut dyn Observer) -> Result<Stage, MapError> {
         place_duals(patch, self.is_circle(), &mut stage.z);
         let unit = if self.is_circle() { PI / self.area } else { 1.0 };
@@ -303,7 +313,7 @@ impl Work<'_> {
     }
 }
 
-/// About the ratio of areas that each triangle is to come to: of the mean sizes at its corners, the largest.
+/// Estimates the target area ratio of each triangle: the largest of the mean ratios at its corners.
 fn scales(patch: &Patch, stretch: &[f64]) -> Vec<f64> {
     let triangles = &patch.metric.triangles;
     let mut sums = vec![(0.0, 0.0); patch.graph.vertices];
@@ -321,13 +331,13 @@ fn scales(patch: &Patch, stretch: &[f64]) -> Vec<f64> {
     triangles.iter().map(|t| t.vertices.map(mean).into_iter().fold(f64::MIN_POSITIVE, f64::max)).collect()
 }
 
-/// Dual vertices at the barycentres of their faces, those on the boundary in the middle.
+/// Places dual vertices at the barycentres of their faces, and those on the boundary at midpoints.
 fn place_duals(patch: &Patch, is_circle: bool, z: &mut [Complex64]) {
     let has_dual = patch.graph.primal < patch.graph.vertices;
     if !has_dual {
         return;
     }
-    // The duals of the faces follow the vertices of the mesh; each face has one triangle, if it has some that moves.
+    // The dual vertices of faces follow the vertices of the mesh; a face that moves has one triangle.
     let mut own = vec![Complex64::ZERO; patch.faces.len()];
     let mut moves = vec![false; patch.faces.len()];
     for (t, &k) in patch.metric.triangles.iter().zip(&patch.face_of_triangle) {

@@ -4,38 +4,38 @@ use super::Pin;
 use crate::constraint::Shape;
 use crate::io::BoundaryLengths;
 
-/// What the boundary of a map does.
+/// The boundary condition of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Boundary {
-    /// It is on the unit circle, or drawn to it: H + C, unless an energy is given.
+    /// The boundary is on the unit circle, or drawn to it: H + C, unless an energy is given.
     Circle {
-        /// Number of boundary points that are pinned, so that the map is unique.
+        /// The number of boundary points that are pinned to make the map unique.
         pinned: PinnedPoints,
         /// Whether the boundary points are kept in order.
         ordered: bool,
     },
-    /// It keeps its lengths: H + L', unless an energy is given.
+    /// The boundary keeps its lengths: H + L', unless an energy is given.
     Free {
-        /// Lengths of the boundary edges, instead of those at rest.
+        /// The lengths of the boundary edges; by default those at rest.
         lengths: Option<BoundaryLengths>,
-        /// Whether parts of the map may overlap each other; where not, a map that does so is replaced, as `valid` says.
+        /// Whether parts of the map may overlap. If not, a map that overlaps is replaced, as `valid` says.
         overlap: bool,
     },
-    /// It is fixed: H, unless an energy is given.
+    /// The boundary is fixed: H, unless an energy is given.
     Fixed {
-        /// Where the boundary is.
+        /// The curve or the positions at which it is fixed.
         on: Outline,
-        /// Which boundary vertices are held; by default `Whole`, with circumcentres `Primal`.
+        /// Which boundary vertices are pinned; by default `Whole`, with circumcentres `Primal`.
         hold: Option<Hold>,
-        /// How the interior is found.
+        /// How the interior is computed.
         interior: Interior,
     },
-    /// There is none: closed surfaces of genus 1 are mapped with two periods, by H.
+    /// The surface has no boundary: closed surfaces of genus 1 are mapped with two periods, by H.
     Periodic,
 }
 
 impl Boundary {
-    /// The unit circle with three points pinned, in no forced order.
+    /// The unit circle with three pinned points; the order of the others is not enforced.
     pub const CIRCLE: Boundary = Boundary::Circle { pinned: PinnedPoints::Three, ordered: false };
 
     /// The surface's own lengths; parts of the map may overlap.
@@ -44,7 +44,7 @@ impl Boundary {
     /// Fixed on the unit circle by arc length, the interior from the energy.
     pub const FIXED: Boundary = Boundary::fixed(Outline::Shape(Shape::Circle));
 
-    /// Fixed on an outline, the interior from the energy.
+    /// The boundary fixed on an outline, the interior from the energy.
     pub const fn fixed(on: Outline) -> Self {
         Boundary::Fixed { on, hold: None, interior: Interior::Energy }
     }
@@ -87,7 +87,7 @@ pub enum BoundaryName {
 }
 
 impl BoundaryName {
-    /// The name.
+    /// The name in options and reports.
     pub fn name(self) -> &'static str {
         match self {
             BoundaryName::Circle => "circle",
@@ -98,12 +98,12 @@ impl BoundaryName {
     }
 }
 
-/// Number of boundary points that a circle map pins.
+/// The number of boundary points that a circle map pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum PinnedPoints {
-    /// As in the paper. The linearised problem is then singular on symmetric surfaces.
+    /// Two, as in the paper. The linearised problem is then singular on symmetric surfaces.
     Two,
-    /// As many as the disc's Möbius group has parameters.
+    /// Three, the number of parameters of the Möbius group of the disc.
     #[default]
     Three,
 }
@@ -118,26 +118,26 @@ impl PinnedPoints {
     }
 }
 
-/// Where a fixed boundary is.
+/// The curve or the positions at which a boundary is fixed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outline {
-    /// On a shape, by arc length.
+    /// The boundary lies on a shape, by arc length.
     Shape(Shape),
-    /// Vertices at places of their own.
+    /// The vertices are pinned at given positions.
     Places(Vec<Pin>),
 }
 
-/// Which boundary vertices of the quad graph a fixed boundary holds.
+/// Which boundary vertices of the quad graph are pinned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Hold {
-    /// All of them: H is minimised in least squares.
+    /// All of them; H is minimised in the sense of least squares.
     Whole,
-    /// Those of the mesh, and one dual vertex: (2) is square and solved exactly. The same as `whole` on quad meshes.
+    /// Those of the mesh and one dual vertex: (2) is square and solved exactly. On quad meshes the same as `Whole`.
     Primal,
 }
 
-/// How the interior is found beside a fixed boundary.
+/// How the interior of a map with a fixed boundary is computed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Interior {
     /// It minimises the energy.

@@ -9,8 +9,8 @@ use crate::quad_graph::RestSource;
 use crate::quad_graph::dual::BoundaryDual;
 use crate::surface::normals::NormalSpec;
 
-/// [`MapOptions`] as flat keys: those of the command line and of the `[map]` table of an experiment. What is left out has its default.
-/// Converted by `MapOptions::try_from`, which refuses options that contradict each other.
+/// [`MapOptions`] as flat keys: those of the command line and of the `[map]` table of an experiment. Missing keys have
+/// their defaults. `MapOptions::try_from` converts them and refuses keys that contradict each other.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FlatOptions {
@@ -22,27 +22,27 @@ pub struct FlatOptions {
     pub remove_faces: Vec<u32>,
     /// As in [`MapOptions`].
     pub surrogate: Option<f64>,
-    /// What the boundary does.
+    /// The boundary of the map.
     pub boundary: Option<BoundaryName>,
     /// As in [`MapOptions`].
     pub energy: Option<Expression>,
-    /// Fixed boundaries: the shape that the boundary is on.
+    /// The shape on which a fixed boundary lies.
     pub shape: Option<Shape>,
-    /// Fixed boundaries: places of vertices, instead of `shape`.
+    /// The positions of the vertices of a fixed boundary, instead of `shape`.
     pub positions: Option<Vec<Pin>>,
-    /// Free maps: lengths of the boundary edges, instead of those at rest.
+    /// The lengths of the boundary edges of a free map; by default those at rest.
     pub boundary_lengths: Option<BoundaryLengths>,
     /// As in [`MapOptions`].
     pub pins: Vec<Pin>,
-    /// Fixed boundaries: which boundary vertices are held.
+    /// Which vertices of a fixed boundary are pinned.
     pub hold: Option<Hold>,
-    /// Fixed boundaries: weights by which inner vertices are means of their neighbours.
+    /// The weights of a convex combination map, with a fixed boundary.
     pub weights: Option<String>,
-    /// Which map replaces a conformal one that is not injective.
+    /// Which replacement is computed when the conformal map is not injective.
     pub valid: ValidName,
-    /// Circle maps: number of boundary points that are pinned, 2 or 3.
+    /// The number of boundary points that a circle map pins, 2 or 3.
     pub fix: Option<usize>,
-    /// Circle maps: whether the boundary points are kept in order.
+    /// Whether the boundary points of a circle map are kept in order.
     pub keep_order: bool,
     /// As in [`MapOptions`].
     pub start: Start,
@@ -66,7 +66,7 @@ pub struct FlatOptions {
     pub max_iterations: Option<usize>,
 }
 
-/// The choices of [`Valid`], and whether free maps may overlap, by the names of flat keys.
+/// The names of flat keys for [`Valid`] and for whether free maps may overlap.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ValidName {
@@ -84,17 +84,17 @@ pub enum ValidName {
 /// Options that contradict each other.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OptionsError {
-    /// An option that only another boundary has.
+    /// The option belongs to another boundary.
     #[error("`{key}` is an option of the {} boundary, and the boundary is {}", of.name(), boundary.name())]
     OtherBoundary {
         /// The option.
         key: &'static str,
         /// The boundary that has it.
         of: BoundaryName,
-        /// The boundary that was asked for.
+        /// The requested boundary.
         boundary: BoundaryName,
     },
-    /// Two options that say the same thing differently.
+    /// Two options exclude each other.
     #[error("`{first}` and `{second}` exclude each other")]
     Exclusive {
         /// One of them.
@@ -102,13 +102,13 @@ pub enum OptionsError {
         /// The other.
         second: &'static str,
     },
-    /// A number of pinned points that is neither 2 nor 3.
+    /// The number of pinned points is neither 2 nor 3.
     #[error("{fix} fixed boundary points: a circle map has 3 (or 2, as in the paper)")]
     FixedPoints {
-        /// The number asked for.
+        /// The requested number.
         fix: usize,
     },
-    /// A vertex with two pins.
+    /// A vertex has two pins.
     #[error("vertex {vertex} is pinned twice: one place is enough")]
     PinnedTwice {
         /// The vertex.
@@ -117,7 +117,7 @@ pub enum OptionsError {
 }
 
 impl FlatOptions {
-    /// The boundary, with what is said of it.
+    /// The boundary with its options.
     fn boundary(&self) -> Result<Boundary, OptionsError> {
         let boundary = self.boundary.unwrap_or_default();
         let given = [
@@ -159,7 +159,7 @@ impl FlatOptions {
         })
     }
 
-    /// Whether the energy that is given keeps the lengths of a boundary of which nothing is said.
+    /// Whether no boundary is given and the energy keeps its lengths.
     fn keeps_lengths(&self) -> bool {
         self.boundary.is_none() && self.energy.as_ref().is_some_and(|energy| energy.keeps_boundary_lengths())
     }

@@ -1,4 +1,4 @@
-//! What is asked of a map.
+//! The options of a map.
 
 mod boundary;
 mod flat;
@@ -25,17 +25,17 @@ use crate::surface::normals::NormalSpec;
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::diagnosis::Diagnosis;
 
-/// A vertex of the source held at a place.
+/// A vertex of the source pinned at a position.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pin {
     /// Vertex index in the source, from 0.
     pub vertex: u32,
-    /// Its place in the plane.
+    /// Its position in the plane.
     pub place: [f64; 2],
 }
 
-/// What the ρ of a quad mesh is computed from, where no estimator of normals is named.
+/// The data from which ρ of a quad mesh is computed, if no estimator of normals is named.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RhoSource {
@@ -48,23 +48,26 @@ pub enum RhoSource {
     Auto,
 }
 
-/// The map that a minimisation begins with.
+/// The map from which a minimisation starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Start {
-    /// With lengths or areas in the energy and no circle: the free map, where it is found; else as `circle`.
+    /// The free map, if the energy depends on lengths or areas and not on the circle, and if that map is found; else
+    /// `Circle`.
     #[default]
     Auto,
     /// The paper's (§3.3): the boundary on a circle by arc length, the interior from H.
     Circle,
 }
 
-/// Which map replaces a conformal one that is not injective. It is replaced for circle and free maps by the energy of their boundary and
-/// without pins, and for convex combination maps where rounding has flipped a face. All others are checked, and kept.
+/// Which replacement is computed when the conformal map is not injective.
+///
+/// Circle and free maps are replaced, unless an energy or pins are given, and convex combination maps in which rounding
+/// flipped a face. All other maps are checked and kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Valid {
-    /// The same map with its flipped faces unflipped in place where that is possible; else a bijective map of low quasi-conformal
-    /// distortion: the lowest MIPS with all faces counting alike, with a free boundary MIPS + γ'L'.
+    /// The same map with its flipped faces unflipped in place, if that is possible; else a bijective map of low
+    /// quasi-conformal distortion: the minimum of MIPS, all faces counting alike, or of MIPS + γ'L' with a free boundary.
     #[default]
     Auto,
     /// That bijective map. It also replaces an injective conformal map of higher mean σ1/σ2: on coarse and obtuse meshes. On fine ones
@@ -74,49 +77,49 @@ pub enum Valid {
     Off,
 }
 
-/// The request: how the surface becomes a disc, what its boundary does, the energy, and how it is minimised. [`FlatOptions`] reads the
-/// same from flat keys.
+/// The options of a map: how the surface becomes a disc, its boundary, the energy, and the solver. [`FlatOptions`] reads
+/// them from flat keys.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "FlatOptions")]
 pub struct MapOptions {
-    /// Whether a surface that is no disc is cut open along a short graph.
+    /// Whether a surface that is not a disc is cut open along a short graph.
     pub cut: bool,
-    /// Whether the holes of the surface are filled for the solve: all but the longest, for periodic maps all.
+    /// Whether holes are filled for the solve: all boundary loops but the longest; for periodic maps all.
     pub fill_holes: bool,
-    /// Faces of the source that are left out.
+    /// Faces of the source that are removed.
     pub remove_faces: Vec<u32>,
-    /// The height over length of the shapes that faces without area are given; none: they are refused. See [`Surrogates`].
+    /// The height over length of the shapes given to faces without area; `None` refuses such faces. See [`Surrogates`].
     pub surrogate: Option<f64>,
-    /// What the boundary does.
+    /// The boundary of the map.
     pub boundary: Boundary,
-    /// The energy, instead of the one that `boundary` stands for.
+    /// The energy; by default the one that `boundary` stands for.
     pub energy: Option<Expression>,
-    /// Vertices pinned beside a fixed boundary, or elsewhere than it says; for circle maps instead of the two or three points; for metric
-    /// energies instead of the gauge.
+    /// Pinned vertices. They are added to a fixed boundary or override it; they replace the normalisation points of a
+    /// circle map and the gauge of a metric energy.
     pub pins: Vec<Pin>,
     /// Constraints of one's own; they hold vertices as `pins` do.
     pub constraints: Vec<Own<dyn Constraint>>,
-    /// Which map replaces a conformal one that is not injective.
+    /// Which replacement is computed when the conformal map is not injective.
     pub valid: Valid,
-    /// The map that a minimisation starts from.
+    /// The map from which a minimisation starts.
     pub start: Start,
-    /// Weights of the energies.
+    /// The weights of the energies.
     pub weight: Weight,
-    /// Dual point of triangle meshes.
+    /// The dual point of triangle meshes.
     pub dual: String,
-    /// Dual vertex of boundary edges.
+    /// The dual vertex of boundary edges.
     pub boundary_dual: BoundaryDual,
-    /// What ρ of quad meshes is computed from.
+    /// The data from which ρ of quad meshes is computed.
     pub rho: RhoSource,
     /// The estimator of normals from which ρ of quad meshes and digital surfaces is computed, instead of `rho`.
     pub normals: Option<NormalSpec>,
-    /// With normals: which lengths and areas are those at rest.
+    /// The rest lengths and areas, if ρ is computed from normals.
     pub rest: RestSource,
     /// The solver.
     pub solver: SolverChoice,
-    /// Nonlinear maps have converged when |∇E| is at most this times its value at the start.
+    /// Convergence of nonlinear maps: |∇E| is at most this times its value at the start.
     pub tolerance: f64,
-    /// Largest number of iterations; by default the solver's own.
+    /// The largest number of iterations; by default that of the solver.
     pub max_iterations: Option<usize>,
 }
 
@@ -147,15 +150,15 @@ impl Default for MapOptions {
 }
 
 impl MapOptions {
-    /// How the surface becomes a disc.
+    /// The options that make the surface a disc.
     pub fn opening(&self) -> Opening {
         Opening { cut: self.cut, remove_faces: self.remove_faces.clone(), fill_holes: self.fill_holes }
     }
 
-    /// What stands against a surface when faces without area are given a shape as asked.
+    /// Removes the findings about faces without area from a diagnosis, if such faces are given a shape.
     ///
     /// # Errors
-    /// A height that is none.
+    /// The height is not in (0, 1].
     pub(super) fn forgiving(&self, diagnosis: Diagnosis) -> Result<Diagnosis, MapError> {
         match self.surrogate {
             None => Ok(diagnosis),
@@ -164,7 +167,7 @@ impl MapOptions {
         }
     }
 
-    /// Gives the faces of a disc that have no area a shape, where that is asked for.
+    /// Gives faces without area a shape, if that is asked for.
     pub(super) fn shape_flat_faces(&self, disc: &mut OrientedMesh) {
         if let Some(height) = self.surrogate {
             disc.surrogates = Surrogates::new(&disc.positions, &disc.faces, height);
@@ -187,7 +190,7 @@ impl MapOptions {
         })
     }
 
-    /// Whether a conformal map that is not injective is replaced.
+    /// Whether a conformal map that is not injective is replaced by one that is.
     pub fn promises_valid(&self) -> bool {
         self.valid != Valid::Off
             && self.energy.is_none()
@@ -195,7 +198,7 @@ impl MapOptions {
             && matches!(self.boundary, Boundary::Circle { .. } | Boundary::Free { lengths: None, .. })
     }
 
-    /// Number of boundary points that a circle map pins.
+    /// The number of boundary points that a circle map pins.
     pub fn pinned_points(&self) -> PinnedPoints {
         match self.boundary {
             Boundary::Circle { pinned, .. } => pinned,
@@ -208,7 +211,7 @@ impl MapOptions {
         matches!(self.boundary, Boundary::Circle { ordered: true, .. })
     }
 
-    /// The lengths that the boundary edges of a free map are to have.
+    /// The prescribed lengths of the boundary edges of a free map.
     pub fn boundary_lengths(&self) -> Option<&BoundaryLengths> {
         match &self.boundary {
             Boundary::Free { lengths, .. } => lengths.as_ref(),
@@ -216,7 +219,7 @@ impl MapOptions {
         }
     }
 
-    /// The weights by which inner vertices are means of their neighbours.
+    /// The name of the weights of a convex combination map.
     pub fn weights(&self) -> Option<&str> {
         match &self.boundary {
             Boundary::Fixed { interior: Interior::Weights(name), .. } => Some(name),
@@ -249,11 +252,11 @@ impl MapOptions {
         Ok(())
     }
 
-    /// The vertices of `graph` that a fixed boundary and the pins hold, and where. Another boundary is taken for one that is fixed on the
-    /// unit circle.
+    /// Returns the vertices of `graph` that a fixed boundary and the pins hold, and their positions. Any other boundary is
+    /// treated as fixed on the unit circle.
     ///
     /// # Errors
-    /// Vertices that are not in use; a shape that the boundary is too short for.
+    /// A vertex is not in use; the boundary has too few vertices for the shape.
     pub fn fixed(&self, disc: &OrientedMesh, graph: &QuadGraph) -> Result<Fixed, MapError> {
         let (on, hold) = match &self.boundary {
             Boundary::Fixed { on, hold, .. } => (on, *hold),
@@ -278,7 +281,7 @@ impl MapOptions {
     }
 }
 
-/// Holds vertices of the source at their places.
+/// Pins vertices of the source at their positions.
 fn hold_pins(fixed: &mut Fixed, disc: &OrientedMesh, pins: &[Pin]) -> Result<(), MapError> {
     for pin in pins {
         let copies = disc.copies(pin.vertex);

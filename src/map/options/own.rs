@@ -1,4 +1,4 @@
-//! Constraints and solvers of one's own.
+//! Constraints and solvers supplied by the user of the library.
 
 use std::fmt;
 use std::ops::Deref;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::solver::{LinearSolver, Minimiser};
 
-/// A shared value of the user's, equal to itself alone.
+/// A shared value supplied by the user of the library; it equals only its own clones.
 pub struct Own<T: ?Sized>(Arc<T>);
 
 impl<T: ?Sized> Own<T> {
@@ -45,14 +45,14 @@ impl<T: ?Sized> fmt::Debug for Own<T> {
 /// Which solver finds a map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum SolverChoice {
-    /// The one that suits the problem best.
+    /// The fastest solver that suits the problem.
     #[default]
     Auto,
     /// The solver of this name: [`solver_names`](crate::solver::solver_names) has all.
     Named(String),
-    /// A solver of linear problems of one's own: H with the boundary fixed.
+    /// A linear solver supplied by the user: for H with the boundary fixed.
     Linear(Own<dyn LinearSolver>),
-    /// A minimiser of one's own, for all other problems.
+    /// A minimiser supplied by the user: for all other problems.
     Minimiser(Own<dyn Minimiser>),
 }
 

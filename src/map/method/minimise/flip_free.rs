@@ -1,4 +1,4 @@
-//! What energies of maps without flipped faces, +∞ elsewhere, need beside the others: a start without flipped faces, and a place for the
+//! Minimisation of energies that are +∞ for maps with flipped faces: a start without flipped faces, and positions for the
 //! dual vertices that they do not see.
 
 use num_complex::Complex64;

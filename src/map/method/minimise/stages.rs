@@ -9,20 +9,23 @@ use crate::problem::nonlinear::{Objective, Terms};
 use crate::quad_graph::metric::RestMetric;
 use crate::solver::{Minimiser, Minimum, Observer, Status, StopRule};
 
-/// L' is first weakened by this factor: with integral weights it is stiff, and far from a solution the energy has long
-/// narrow valleys. A solution with H = L' = 0 is one for every coefficient.
+/// The factor by which L' is weakened in the first stage.
+///
+/// # Rationale
+/// With integral weights L' is stiff, and far from a solution the energy has long narrow valleys. A solution with
+/// H = L' = 0 is one for every coefficient.
 const SOFTENED: f64 = 0.01;
 
-/// Coefficients of the barrier that keeps the boundary in order, stage after stage.
+/// The coefficients of the barrier that keeps the boundary in order, one for each stage.
 const BARRIER: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];
 
-/// What objectives are made of.
+/// The data from which objectives are made.
 pub(super) struct Stages<'a> {
     pub setup: &'a Setup<'a>,
     pub metric: &'a RestMetric,
-    /// What is held.
+    /// The pinned vertices.
     pub fixed: Fixed,
-    /// The factor on energies of shapes alone.
+    /// The factor on energies that do not depend on scale.
     pub unit: f64,
 }
 
