@@ -22,7 +22,7 @@ use crate::surface::Surface;
 /// let mut cubes = Solid::empty([2, 2, 1], [0.0; 3]);
 /// cubes.insert([0, 0, 0]);
 /// cubes.insert([1, 1, 0]);
-/// The cubes share only an edge: they are two surfaces or one.
+/// // The cubes share only an edge: they are two surfaces or one.
 /// let (surface, apart) = boundary(cubes.clone(), Adjacency::Six, 0)?;
 /// assert_eq!((apart.components, surface.positions().len()), (vec![6, 6], 8));
 /// let (surface, joined) = boundary(cubes, Adjacency::Eighteen, 0)?;
