@@ -192,7 +192,7 @@ fn of_periodic(error: &PeriodicError) -> Option<&'static str> {
         }
         PeriodicError::Homology(HomologyError::Genus { .. }) => Some("cut it open to a disc (--cut)"),
         PeriodicError::Homology(_) | PeriodicError::Periods(_) => None,
-        PeriodicError::Harmonic(_) | PeriodicError::NotReducible(_) => None,
+        PeriodicError::Harmonic(_) | PeriodicError::Differentials(_) | PeriodicError::NotReducible(_) => None,
     }
 }
 

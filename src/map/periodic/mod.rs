@@ -3,11 +3,11 @@
 //!
 //! 1. [`Homology`]: two loops γ1, γ2, and closed integer 1-forms that count crossings of them;
 //! 2. [`Periods`]: by these, the lifts of each quad's corners, `z_v + m ω1 + n ω2`;
-//! 3. [`Harmonic`]: u1, u2 with the periods (1, 0), (0, 1), so that `z = u1 ω1 + u2 ω2` minimises H for any ω, and the matrix P of H(ω);
-//! 4. the ratio that minimises H for an image of given area, `τ = (−Re P12 + i √(P11 P22 − (Re P12)²)) / P22`. H for ω1 = 1 gives
-//!    `(−Re P12 + i/2) / P22` instead, which depends on the basis: on triangle tori of 16² … 64² its error differs by 0.6 to 0.03 %
-//!    of itself, to the better in one basis and to the worse in another; on quad tori both are the same;
-//! 5. [`reduce`]: τ in the fundamental domain, with its basis; loops of that basis; [`PeriodicMap::unfold`]: faces laid out.
+//! 3. [`Differentials`]: the holomorphic function with the periods 1 and τ, by the periods P of white values as functions of those
+//!    of black ones. With unit weights, or where some loop of the mesh has an odd number of edges so that there is no black and white,
+//!    [`Harmonic`]: u1, u2 with the periods (1, 0), (0, 1), the matrix of H(ω) for `z = u1 ω1 + u2 ω2`, and the ratio that minimises H for an
+//!    image of given area, [`ratio`](crate::solver::linear::periodic::PeriodEnergy::ratio);
+//! 4. [`reduce`]: τ in the fundamental domain, with its basis; loops of that basis; [`PeriodicMap::unfold`]: faces laid out.
 
 mod float;
 mod modulus;
@@ -23,9 +23,11 @@ pub use unfold::Unfolded;
 use num_complex::Complex64;
 
 use crate::energy::conformal::{self, Weight};
+use crate::laplacian::LaplacianError;
 use crate::quad_graph::{Periods, PeriodsError, QuadGraph};
 use crate::solver::Observer;
-use crate::solver::linear::periodic::{Harmonic, HarmonicError, PeriodEnergy};
+use crate::solver::boundary::{Differentials, DifferentialsError, PERIODS_NAME};
+use crate::solver::linear::periodic::{Harmonic, HarmonicError};
 use crate::surface::edges::Edges;
 use crate::surface::oriented_mesh::OrientedMesh;
 use crate::surface::topology::homology::{Cycle, Homology, HomologyError};
@@ -45,11 +47,12 @@ pub struct PeriodicMap {
     pub found: Reduced,
     /// The ratio in that basis, before the change.
     pub tau_found: Complex64,
-    /// H as a function of the periods in that basis.
-    pub energy: PeriodEnergy,
+    /// The periods of the white values of (2) divided by those of the black ones, 1 + O(h²): the white values are divided by it.
+    /// `None` for periods by least squares.
+    pub white_to_black: Option<Complex64>,
     /// H of the map, whose image has the area Im τ.
     pub h: f64,
-    /// The relative residual of the normal equations.
+    /// The relative residual of the linear equations.
     pub residual: f64,
     /// The factorisation used.
     pub backend: &'static str,
@@ -67,13 +70,18 @@ pub enum PeriodicError {
     /// No harmonic functions.
     #[error(transparent)]
     Harmonic(#[from] HarmonicError),
+    /// No holomorphic function.
+    #[error(transparent)]
+    Differentials(#[from] DifferentialsError),
     /// Periods of no torus.
     #[error(transparent)]
     NotReducible(#[from] NotReducible),
 }
 
-/// The conformal map of the closed surface `disc`, of genus 1, with the quad graph `graph`: the least H of all maps of a given area
-/// and of all periods. See [`PeriodEnergy::ratio`].
+/// The conformal map of the closed surface `disc`, of genus 1, with the quad graph `graph`.
+///
+/// With integral weights by [`Differentials`], H = 0 but for the factor that makes black and white periods equal. With unit weights, and on
+/// meshes without black and white, the least H of all maps of a given area and of all periods.
 ///
 /// # Errors
 /// Another surface; integral weights where some Re ρ ≤ 0; a factorisation that breaks down.
@@ -101,8 +109,8 @@ pub fn periodic_from(
     let homology = Homology::new(disc, &edges, root)?;
     let mut periods = Periods::new(disc, graph, &edges, &homology)?;
     drop(edges);
-    let Harmonic { u: [u1, u2], energy, residual, backend } = Harmonic::new(graph, &periods, weight, watch)?;
-    let tau_found = energy.ratio();
+    let weights = conformal::weights(graph, weight).map_err(HarmonicError::from)?;
+    let Cover { z: lifted, tau: tau_found, white_to_black, residual, backend } = cover(graph, &periods, weight, watch)?;
     let found = reduce(tau_found)?;
     let Reduced { tau, matrix } = found;
     let [[a, b], [c, d]] = matrix;
@@ -111,13 +119,45 @@ pub fn periodic_from(
 
     // ω1' = cω2 + dω1 becomes 1, for ω1 = 1.
     let scale = (c as f64 * tau_found + d as f64).inv();
-    let mut z: Vec<Complex64> = u1.iter().zip(&u2).map(|(u1, u2)| (u1 + u2 * tau_found) * scale).collect();
+    let mut z: Vec<Complex64> = lifted.iter().map(|z| z * scale).collect();
     float::white(disc, graph, &periods, [Complex64::ONE, tau], &mut z);
-    let mut map = PeriodicMap { z, tau, periods, loops, found, tau_found, energy, h: 0.0, residual, backend };
-    let weights = conformal::weights(graph, weight).map_err(HarmonicError::from)?;
+    let mut map = PeriodicMap { z, tau, periods, loops, found, tau_found, white_to_black, h: 0.0, residual, backend };
     let squares = weights.iter().enumerate().map(|(q, w)| w * map.residual(graph, q).norm_sqr());
     map.h = squares.sum();
     Ok(map)
+}
+
+/// A map with the periods 1 and τ in the first basis.
+struct Cover {
+    z: Vec<Complex64>,
+    tau: Complex64,
+    white_to_black: Option<Complex64>,
+    residual: f64,
+    backend: &'static str,
+}
+
+/// By the conformal Laplacian, or by least squares where that does not exist or unit weights are asked for.
+fn cover(
+    graph: &QuadGraph,
+    periods: &Periods,
+    weight: Weight,
+    watch: &mut dyn Observer,
+) -> Result<Cover, PeriodicError> {
+    if weight == Weight::Integral {
+        match Differentials::new(graph, 2, |q, k| periods.quads[q].map(|offset| offset[k]), watch) {
+            Ok(Differentials { mut z, periods, white_to_black, residual }) => {
+                let white_to_black = Some(white_to_black[(0, 0)]);
+                let z = z.swap_remove(0);
+                return Ok(Cover { z, tau: periods[(0, 0)], white_to_black, residual, backend: PERIODS_NAME });
+            }
+            Err(DifferentialsError::Laplacian(LaplacianError::NotTwoColoured { .. })) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    let Harmonic { u: [u1, u2], energy, residual, backend } = Harmonic::new(graph, periods, weight, watch)?;
+    let tau = energy.ratio();
+    let z = u1.iter().zip(&u2).map(|(u1, u2)| u1 + u2 * tau).collect();
+    Ok(Cover { z, tau, white_to_black: None, residual, backend })
 }
 
 impl PeriodicMap {

@@ -17,6 +17,9 @@ pub struct PeriodsRecord {
     pub loops: [LoopRecord; 2],
     /// The linear map to texture coordinates with whole-number periods, and its shear..
     pub whole: Texture,
+    /// The periods of the white values of (2) divided by those of the black ones, [Re, Im]: 1 for a conformal map. `None` for a map by
+    /// least squares.
+    pub white_to_black: Option<[f64; 2]>,
     /// H of the map divided by the area of its image, Im τ: 0 for a conformal map.
     pub h_per_area: f64,
     /// The exact ratio, reduced, where it is known.
@@ -51,6 +54,7 @@ impl PeriodsRecord {
             basis: map.found.matrix,
             loops,
             whole: whole(map.tau),
+            white_to_black: map.white_to_black.map(pair),
             h_per_area: map.h / map.tau.im,
             exact: exact.map(reduce).transpose()?.map(|exact| pair(exact.tau)),
             error: exact.map(|exact| relative_error(map.tau, exact)).transpose()?,

@@ -4,6 +4,7 @@
 //!   [conformal Laplacian](crate::laplacian).
 //! - [`free_map`]: the boundary edges of the quad graph *exactly* of given lengths, H the lowest. H + γ'L' comes to this as γ'
 //!   grows, and is the same where it can vanish.
+//! - [`Differentials`]: holomorphic differentials and period matrices of closed surfaces.
 
 mod angles;
 mod conjugate;
@@ -11,11 +12,13 @@ mod free;
 mod gmres;
 mod norm;
 mod operator;
+mod periods;
 mod turning;
 mod two_circles;
 
 pub use free::{FreeMap, FreeProblem, FreeStalled, free_map};
 pub use operator::Reduction;
+pub use periods::{Differentials, DifferentialsError, PERIODS_NAME};
 pub use two_circles::{
     CirclePin, Linearised, TwoCircleMap, TwoCirclesError, centred_pins, singular_values, two_circle_map,
 };

@@ -38,6 +38,20 @@ pub fn torus(n: usize, mesh: &str) -> OrientedMesh {
     closed(&torus_surface(n, mesh))
 }
 
+/// The torus of revolution of n × n quads, every angle moved at random by up to a fifth of a step; or of their halves.
+pub fn jittered_torus(n: u32, triangles: bool, seed: u64) -> OrientedMesh {
+    let mut random = Random(seed);
+    let grid = quad_grid(n, n, Sides::Torus);
+    let mut place = |v: u32| {
+        let [phi, theta] =
+            [v % n, v / n].map(|k| std::f64::consts::TAU * (f64::from(k) + 0.2 * random.real()) / f64::from(n));
+        let distance = BIG + SMALL * theta.cos();
+        [distance * phi.cos(), distance * phi.sin(), SMALL * theta.sin()]
+    };
+    let s = surface((0..n * n).map(&mut place).collect(), grid.faces().iter());
+    closed(&if triangles { triangulated(&s) } else { s })
+}
+
 /// The torus of revolution of about equilateral triangles: n around the axis in each of m rows, every second row turned by half
 /// a step. All angles are acute for m < 0.57 n.
 pub fn brick_torus(n: u32, m: u32) -> OrientedMesh {
