@@ -32,8 +32,20 @@ pub struct MeanMax {
 
 /// The quasi-conformal distortion σ1/σ2 over the faces that are neither flipped nor collapsed; 1 is
 /// conformal.
+///
+/// # Rationale
+/// The plain mean is no measure of circle maps. A face with two edges on the boundary, an *ear*,
+/// is distorted by the exact conformal map itself: its corner is opened to nearly half a turn. On a
+/// flat square of 6400 Delaunay vertices the exact map has the mean 1.89 and the maximum 9.5e3 with
+/// one ear, 1.015 without it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct QuasiConformal {
+    /// The median.
+    pub median: f64,
+    /// 90th percentile.
+    pub p90: f64,
+    /// Mean over the faces that have at most one edge on the boundary; `None` where there are no such faces.
+    pub without_ears: Option<f64>,
     /// Mean over faces.
     pub mean: f64,
     /// Mean weighted by area on the surface.
@@ -91,7 +103,7 @@ impl Distortion {
         });
         let scaled = scale.unwrap_or(1.0);
         Distortion {
-            quasi_conformal: quasi_conformal(&valid),
+            quasi_conformal: quasi_conformal(&maps, &ears(disc, graph)),
             area: mean_max(valid.iter().map(|m| symmetric_ratio(m.sigma1 * m.sigma2 * scaled * scaled))),
             symmetric_dirichlet: symmetric_dirichlet(&valid, scaled),
             rho_residual: mean_max(quads.filter(|r| r.is_finite())),
@@ -153,15 +165,38 @@ fn mean_max(values: impl Iterator<Item = f64>) -> Option<MeanMax> {
     (count > 0).then(|| MeanMax { mean: sum / count as f64, max })
 }
 
-fn quasi_conformal(valid: &[&FaceMap]) -> Option<QuasiConformal> {
-    let mut errors: Vec<f64> = valid.iter().map(|m| m.quasi_conformal()).collect();
+fn quasi_conformal(maps: &[FaceMap], ears: &[bool]) -> Option<QuasiConformal> {
+    let valid = || maps.iter().zip(ears).filter(|(map, _)| map.is_regular());
+    let mut errors: Vec<f64> = valid().map(|(map, _)| map.quasi_conformal()).collect();
     let plain = mean_max(errors.iter().copied())?;
-    let area: f64 = valid.iter().map(|m| m.area).sum();
-    let area_mean = valid.iter().map(|m| m.area * m.quasi_conformal()).sum::<f64>() / area;
-    // The smallest value that at least 99 of 100 faces do not exceed.
-    let rank = (errors.len() * 99).div_ceil(100) - 1;
-    let (_, p99, _) = errors.select_nth_unstable_by(rank, f64::total_cmp);
-    Some(QuasiConformal { mean: plain.mean, area_mean, p99: *p99, max: plain.max })
+    let area: f64 = valid().map(|(map, _)| map.area).sum();
+    let area_mean = valid().map(|(map, _)| map.area * map.quasi_conformal()).sum::<f64>() / area;
+    let without_ears = mean_max(valid().filter(|(_, ear)| !**ear).map(|(map, _)| map.quasi_conformal()));
+    // The smallest value that at least so many of 100 faces do not exceed.
+    let [median, p90, p99] = [50, 90, 99].map(|percent| {
+        let rank = (errors.len() * percent).div_ceil(100) - 1;
+        *errors.select_nth_unstable_by(rank, f64::total_cmp).1
+    });
+    let without_ears = without_ears.map(|errors| errors.mean);
+    Some(QuasiConformal { median, p90, without_ears, mean: plain.mean, area_mean, p99, max: plain.max })
+}
+
+/// Whether two or more edges of a face are on the boundary (`nf`).
+fn ears(disc: &OrientedMesh, graph: &QuadGraph) -> Vec<bool> {
+    const NONE: u32 = u32::MAX;
+    // The mesh vertex after each one along its boundary loop.
+    let mut next = vec![NONE; disc.positions.len()];
+    for range in &graph.loops {
+        let of_mesh = || graph.boundary[range.clone()].iter().copied().filter(|&v| !graph.is_dual(v));
+        for (v, after) in of_mesh().zip(of_mesh().cycle().skip(1)) {
+            next[v as usize] = after;
+        }
+    }
+    let on_boundary = |polygon: &[u32]| {
+        let ahead = polygon.iter().cycle().skip(1);
+        polygon.iter().zip(ahead).filter(|&(&v, &after)| next[v as usize] == after).count()
+    };
+    disc.faces.iter().map(|polygon| on_boundary(polygon) > 1).collect()
 }
 
 fn symmetric_dirichlet(valid: &[&FaceMap], scale: f64) -> Option<f64> {

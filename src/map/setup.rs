@@ -6,16 +6,11 @@ use num_complex::Complex64;
 
 use super::kept_factor::KeptFactor;
 use super::normalisation::Normalisation;
-use super::{Boundary, Domain, Map, MapError, MapOptions, Start, Valid};
+use super::{Boundary, Domain, Map, MapError, MapOptions, Start};
 use crate::distortion::{Image, face_maps};
 use crate::energy::Expression;
 use crate::laplacian::{ConformalLaplacian, LaplacianError};
 use crate::solver::Observer;
-
-/// The mean of σ1/σ2 above which a circle map is nothing to keep though it folds no face: on coarse meshes with ragged boundaries H is
-/// least where some faces are drawn out to needles. Of 200 discs cut out of public meshes 74 had plain maps that fold nothing; 58 of these
-/// were above libigl's harmonic map, by factors up to 500. 45 of the 58 are above this mean, the others by a factor of 1.25 at most.
-const LARGEST_DISTORTION: f64 = 2.0;
 
 /// One problem: a surface, what is minimised on it, and what makes the map unique.
 pub(super) struct Setup<'a> {
@@ -82,12 +77,6 @@ impl Setup<'_> {
             Boundary::Free { overlap: true, .. } => validity.is_locally_one_to_one(),
             _ => validity.is_one_to_one(),
         }
-    }
-
-    /// Whether a bijective map of lower distortion is looked for though `map` is injective.
-    pub fn looks_for_less_distortion(&self, map: &Map) -> bool {
-        self.options.valid == Valid::BestQc
-            || (self.options.boundary.is_circle() && self.mean_distortion(map) > LARGEST_DISTORTION)
     }
 
     /// The mean of σ1/σ2 over the faces.

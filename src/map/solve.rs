@@ -7,7 +7,7 @@ use super::method::{Attempt, boundary, convex, direct, minimise};
 use super::normalisation::Normalisation;
 use super::provenance::{Provenance, Replaced, Replacement, Setback};
 use super::setup::Setup;
-use super::{Domain, Map, MapError, MapOptions};
+use super::{Domain, Map, MapError, MapOptions, Valid};
 use crate::constraint::ConstraintError;
 use crate::distortion::mesh_boundary;
 use crate::geometry::polygon::out_of_order;
@@ -90,11 +90,12 @@ fn conformal(setup: &Setup, watch: &mut dyn Observer) -> Result<Map, MapError> {
 }
 
 /// Returns the conformal map if it is injective; else the same map with its flipped faces unflipped in place; else, or
-/// if the iterations did not converge, a bijective map of low quasi-conformal distortion.
+/// if the iterations did not converge, a bijective map of low quasi-conformal distortion. With [`Valid::BestQc`] the
+/// bijective map also replaces an injective conformal map of higher mean distortion.
 fn injective(setup: &Setup, conformal: Result<Map, MapError>, watch: &mut dyn Observer) -> Result<Map, MapError> {
     let (kept, flipped, spent) = match conformal {
         Ok(map) => match setup.accepts(&map.z) {
-            true if setup.looks_for_less_distortion(&map) => {
+            true if setup.options.valid == Valid::BestQc => {
                 let spent = map.iterations;
                 (Some(map), None, spent)
             }

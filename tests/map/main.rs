@@ -18,6 +18,7 @@ mod nonlinear_maps;
 mod periodic;
 mod public_meshes;
 mod riemann;
+mod statistics;
 mod tiny_discs;
 mod valid;
 mod valid_properties;

@@ -17,6 +17,7 @@ const FIELDS: &str = "
     solver.backend:s solver.status:s solver.valid:b solver.repaired:b solver.iterations:u solver.gradient_norm:?
     solver.seconds.read:n solver.seconds.assemble:n solver.seconds.factor:n solver.seconds.solve:n solver.seconds.total:n
     solver.smallest_singular_value:?
+    distortion.quasi_conformal.median:n distortion.quasi_conformal.p90:n distortion.quasi_conformal.without_ears:n
     distortion.quasi_conformal.mean:n distortion.quasi_conformal.area_mean:n distortion.quasi_conformal.p99:n
     distortion.quasi_conformal.max:n distortion.area.mean:n distortion.area.max:n distortion.symmetric_dirichlet:n
     distortion.rho_residual.mean:n distortion.rho_residual.max:n distortion.length.mean:n distortion.length.max:n

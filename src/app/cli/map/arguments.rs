@@ -102,10 +102,9 @@ pub struct Arguments {
     pub(super) weights: Option<String>,
     /// Map that replaces one with flipped faces: auto, best-qc, one-to-one, off [default: auto]
     ///
-    /// auto: a circle or free map with flipped faces, or a circle map with a mean σ1/σ2 above 2, is
-    /// replaced by one without flipped faces. best-qc: the map of lower σ1/σ2 is taken. one-to-one:
-    /// free maps must not overlap either. off: the conformal map is kept, as it is beside --energy
-    /// and --pin.
+    /// auto: a circle or free map with flipped faces is replaced by one without, and no other is.
+    /// best-qc: the map of lower mean σ1/σ2 is taken. one-to-one: free maps must not overlap either.
+    /// off: the conformal map is kept, as it is beside --energy and --pin.
     #[arg(long, value_parser = by_name::<ValidName>, help_heading = "Solver")]
     pub(super) valid: Option<ValidName>,
     /// Number of boundary points that a circle map pins: 3, or 2 as in the paper [default: 3]

@@ -214,8 +214,14 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     if let Some(error) = &distortion.quasi_conformal {
         writeln!(
             out,
-            "quasi-conformal error σ1/σ2: mean {:.5}, by area {:.5}, 99 % {:.5}, max {:.5}",
-            error.mean, error.area_mean, error.p99, error.max
+            "quasi-conformal error σ1/σ2: median {:.5}, 90 % {:.5}, mean without ears {}, mean {:.5}, by area {:.5}, 99 % {:.5}, max {:.5}",
+            error.median,
+            error.p90,
+            error.without_ears.map_or("–".to_owned(), |mean| format!("{mean:.5}")),
+            error.mean,
+            error.area_mean,
+            error.p99,
+            error.max
         )?;
     }
     if let Some(area) = &distortion.area {
