@@ -6,6 +6,7 @@ use std::path::Path;
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use riemap::energy::EnergyError;
+use riemap::input::InputError;
 use riemap::io::{ReadError, VolumeError, WriteError};
 use riemap::map::OptionsError;
 use riemap::map::periodic::PeriodicError;
@@ -16,7 +17,7 @@ use riemap::surface::digital::DigitalError;
 use riemap::surface::normals::NormalError;
 use riemap::surface::topology::diagnosis::Finding;
 use riemap::surface::topology::homology::HomologyError;
-use riemap::{InputError, MapError, SurfaceError};
+use riemap::{MapError, SurfaceError};
 
 /// Which exception is raised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -274,7 +275,9 @@ fn periodic(error: &PeriodicError) -> Raised {
             .advice("map it with boundary=\"circle\" or \"free\", or fill the holes (fill_holes=True)"),
         PeriodicError::Homology(_) => Raised::new(Class::Mesh, "genus").advice("cut it open to a disc (cut=True)"),
         PeriodicError::Periods(_) => Raised::new(Class::Mesh, "periods"),
-        PeriodicError::Harmonic(_) | PeriodicError::NotReducible(_) => Raised::new(Class::Convergence, "periods"),
+        PeriodicError::Harmonic(_) | PeriodicError::Differentials(_) | PeriodicError::NotReducible(_) => {
+            Raised::new(Class::Convergence, "periods")
+        }
     }
 }
 

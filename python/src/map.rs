@@ -4,9 +4,10 @@ use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use riemap::distortion::face_maps;
+use riemap::map::Tiling;
 use riemap::report::Cost;
 use riemap::surface::oriented_mesh::OrientedMesh;
-use riemap::{Mapped, Report, Tiling};
+use riemap::{Mapped, Report};
 
 use crate::error::{Class, of_map, raise};
 use crate::input::Input;
