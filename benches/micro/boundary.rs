@@ -9,7 +9,7 @@ use crate::fixture::{Mesh, meshes, rough};
 #[divan::bench(args = meshes())]
 fn product_with_s(bencher: Bencher, mesh: Mesh) {
     let mapped = mesh.mapped();
-    let reduction = Reduction::new(&mapped.domain.graph, || ()).expect("Re ρ > 0");
+    let reduction = Reduction::new(&mapped.domain.graph, |_| ()).expect("Re ρ > 0");
     let z = rough(reduction.len());
     bencher.bench_local(|| reduction.s(black_box(&z)));
 }
@@ -18,7 +18,7 @@ fn product_with_s(bencher: Bencher, mesh: Mesh) {
 #[divan::bench(args = meshes())]
 fn extension(bencher: Bencher, mesh: Mesh) {
     let mapped = mesh.mapped();
-    let reduction = Reduction::new(&mapped.domain.graph, || ()).expect("Re ρ > 0");
+    let reduction = Reduction::new(&mapped.domain.graph, |_| ()).expect("Re ρ > 0");
     let z = rough(reduction.len());
     bencher.bench_local(|| reduction.extend(black_box(&z)));
 }

@@ -12,7 +12,7 @@ use crate::fixture::{Mesh, meshes, objective};
 #[divan::bench(args = meshes(), sample_count = 20)]
 fn interior(bencher: Bencher, mesh: Mesh) {
     let mapped = mesh.mapped();
-    bencher.bench_local(|| Reduction::new(black_box(&mapped.domain.graph), || ()).expect("Re ρ > 0").len());
+    bencher.bench_local(|| Reduction::new(black_box(&mapped.domain.graph), |_| ()).expect("Re ρ > 0").len());
 }
 
 /// The ordering and the fill of the Hessian of H + A + L, two real numbers a vertex.

@@ -70,7 +70,7 @@ pub enum LaplacianError {
 
 /// Up to this number of black boundary vertices T is formed as a dense matrix, by not eliminating
 /// the boundary.
-const DENSE: usize = 1000;
+pub const DENSE: usize = 1000;
 
 /// The conformal Laplacian L of a quad graph, with a factor of `L_II`.
 ///
@@ -92,28 +92,38 @@ pub struct ConformalLaplacian {
     shifts: Vec<Vec<Complex64>>,
 }
 
-impl ConformalLaplacian {
-    /// Assembles L and factorises L_II. `factoring` is called when the factorisation begins.
-    ///
-    /// # Errors
-    /// [`LaplacianError`].
-    pub fn new(graph: &QuadGraph, factoring: impl FnOnce()) -> Result<Self, LaplacianError> {
-        ConformalLaplacian::with(graph, Colouring::new(graph)?, DENSE, factoring)
-    }
+/// The unknowns of the conformal Laplacian in elimination order, before any matrix is assembled.
+#[derive(Debug)]
+pub struct Ordered {
+    colouring: Colouring,
+    loops: Loops,
+    numbering: Numbering,
+}
 
-    /// Does the same as [`ConformalLaplacian::new`] for given colours, with T as a dense matrix for
-    /// at most `dense` black boundary vertices; use 0 if T is not needed.
+impl Ordered {
+    /// Orders the black vertices of `graph` by nested dissection.
     ///
     /// # Errors
-    /// [`LaplacianError`].
-    pub fn with(
-        graph: &QuadGraph,
-        colouring: Colouring,
-        dense: usize,
-        factoring: impl FnOnce(),
-    ) -> Result<Self, LaplacianError> {
+    /// [`LaplacianError::NotAlternating`].
+    pub fn new(graph: &QuadGraph, colouring: Colouring) -> Result<Self, LaplacianError> {
         let loops = Loops::new(graph, &colouring)?;
         let numbering = Numbering::new(graph, &colouring, &loops.black);
+        Ok(Ordered { colouring, loops, numbering })
+    }
+
+    /// Assembles L of the same graph and factorises L_II. `factoring` is called when the
+    /// factorisation begins. T is a dense matrix for at most `dense` black boundary vertices
+    /// ([`DENSE`] by default); use 0 if T is not needed.
+    ///
+    /// # Errors
+    /// [`LaplacianError::Factorisation`].
+    pub fn factorise(
+        self,
+        graph: &QuadGraph,
+        dense: usize,
+        factoring: impl FnOnce(),
+    ) -> Result<ConformalLaplacian, LaplacianError> {
+        let Ordered { colouring, loops, numbering } = self;
         let rows = BoundaryRows::new(graph, &colouring, &numbering, loops.black.len());
         let is_dense = loops.black.len() <= dense && Factor::is_symmetric(graph);
         let border = if is_dense { loops.black.len() } else { 0 };
@@ -123,6 +133,17 @@ impl ConformalLaplacian {
         let mut laplacian = ConformalLaplacian { colouring, numbering, loops, rows, factor, shifts: Vec::new() };
         laplacian.shifts = laplacian.shifts_between_loops(graph);
         Ok(laplacian)
+    }
+}
+
+impl ConformalLaplacian {
+    /// Orders the unknowns, assembles L and factorises L_II. `factoring` is called when the
+    /// factorisation begins. [`Ordered`] does it in two steps.
+    ///
+    /// # Errors
+    /// [`LaplacianError`].
+    pub fn new(graph: &QuadGraph, factoring: impl FnOnce()) -> Result<Self, LaplacianError> {
+        Ordered::new(graph, Colouring::new(graph)?)?.factorise(graph, DENSE, factoring)
     }
 
     /// The colours of the vertices.

@@ -1,6 +1,6 @@
 use std::sync::{Arc, OnceLock};
 
-use crate::laplacian::{ConformalLaplacian, LaplacianError};
+use crate::laplacian::{Colouring, ConformalLaplacian, DENSE, LaplacianError, Ordered};
 use crate::quad_graph::QuadGraph;
 use crate::solver::{Observer, Phase};
 
@@ -15,7 +15,11 @@ impl KeptFactor {
             return Ok(Arc::clone(laplacian));
         }
         watch.phase(Phase::Assemble);
-        let made = Arc::new(ConformalLaplacian::new(graph, || watch.phase(Phase::Factor))?);
+        let colouring = Colouring::new(graph)?;
+        watch.phase(Phase::Order);
+        let ordered = Ordered::new(graph, colouring)?;
+        watch.phase(Phase::Assemble);
+        let made = Arc::new(ordered.factorise(graph, DENSE, || watch.phase(Phase::Factor))?);
         Ok(Arc::clone(self.0.get_or_init(|| made)))
     }
 }

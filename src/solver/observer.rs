@@ -5,6 +5,8 @@
 pub enum Phase {
     /// Building matrices.
     Assemble,
+    /// Ordering the unknowns by nested dissection. Minimum degree is part of the factorisation.
+    Order,
     /// Factorising them.
     Factor,
     /// Solving with the factors; iterating.

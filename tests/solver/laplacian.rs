@@ -1,7 +1,7 @@
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 use riemap::input::Input;
-use riemap::laplacian::{Colouring, ConformalLaplacian, LaplacianError};
+use riemap::laplacian::{Colouring, ConformalLaplacian, LaplacianError, Ordered};
 use riemap::quad_graph::QuadGraph;
 use riemap::quad_graph::dual::{BoundaryDual, dual_point};
 use riemap::surface::oriented_mesh::OrientedMesh;
@@ -45,7 +45,7 @@ fn apart(a: &[Complex64], b: &[Complex64]) -> f64 {
 
 /// The same with T as a dense matrix for at most `dense` boundary vertices.
 fn laplacian_with(graph: &QuadGraph, dense: usize) -> ConformalLaplacian {
-    ConformalLaplacian::with(graph, Colouring::new(graph).unwrap(), dense, || ()).unwrap()
+    Ordered::new(graph, Colouring::new(graph).unwrap()).unwrap().factorise(graph, dense, || ()).unwrap()
 }
 
 /// L on all vertices, by its definition.

@@ -48,7 +48,7 @@ fn products_are_those_of_the_whole_matrix_with_the_interior_at_rest() {
             continue;
         }
         let w = weights(&graph, Weight::Integral).unwrap();
-        let reduction = Reduction::new(&graph, || ()).unwrap();
+        let reduction = Reduction::new(&graph, |_| ()).unwrap();
         let mut random = Random(7);
         // Twice: nothing is left over from one product to the next.
         for _ in 0..2 {
@@ -82,7 +82,7 @@ fn products_are_those_of_the_whole_matrix_with_the_interior_at_rest() {
 fn k_is_a_quarter_of_the_central_difference_along_the_boundary() {
     let disc = disc_of("graph:cos+cos?n=5&jitter=0.2");
     let graph = graph_of(&disc, "barycentre");
-    let reduction = Reduction::new(&graph, || ()).unwrap();
+    let reduction = Reduction::new(&graph, |_| ()).unwrap();
     let w = weights(&graph, Weight::Integral).unwrap();
     let n = graph.boundary.len();
     for k in 0..n {

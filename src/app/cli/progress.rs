@@ -99,6 +99,7 @@ impl Stage {
         let phase = match (self.phase, self.iteration) {
             (None, _) => "reading".to_owned(),
             (Some(Phase::Assemble), None) => "assembling".to_owned(),
+            (Some(Phase::Order), None) => "ordering".to_owned(),
             (Some(Phase::Factor), None) => "factorising".to_owned(),
             (Some(Phase::Solve), None) => "solving".to_owned(),
             (Some(Phase::Measure), _) => "measuring".to_owned(),
@@ -166,9 +167,12 @@ mod tests {
         let after = Duration::from_millis(4200);
         let mut stage = Stage::default();
         assert_eq!(stage.line(after), "reading, 4.2 s");
-        for (phase, name) in
-            [(Phase::Assemble, "assembling"), (Phase::Factor, "factorising"), (Phase::Solve, "solving")]
-        {
+        for (phase, name) in [
+            (Phase::Assemble, "assembling"),
+            (Phase::Order, "ordering"),
+            (Phase::Factor, "factorising"),
+            (Phase::Solve, "solving"),
+        ] {
             stage.phase = Some(phase);
             assert_eq!(stage.line(after), format!("{name}, 4.2 s"));
         }

@@ -59,7 +59,7 @@ impl Task for CotanTask {
         let ours = map::map_input(&input, &with_dual("circumcentre"), &mut watch)?;
         let seconds = watch.seconds();
         // What libigl is timed for: matrices and solution.
-        let riemap = seconds.assemble + seconds.factor + seconds.solve;
+        let riemap = seconds.of_the_map();
         let flipped = ours.distortion.flipped;
         let residual = ours.map.residual;
         let comparison = compare(&CotanMap { disc: ours.domain.disc, map: ours.map }, &libigl)?;

@@ -97,7 +97,7 @@ impl Task for PeerTask {
                     mapped = map::map_input(&input, &options, &mut watch);
                 }
                 let seconds = watch.seconds();
-                (mapped?, Some(options.weight), seconds.assemble + seconds.factor + seconds.solve)
+                (mapped?, Some(options.weight), seconds.of_the_map())
             }
         };
         let mut result = untimed(Report::new(&input, &mapped, watch.cost()))?;

@@ -8,7 +8,7 @@ use crate::map::{Map, MapError, MapOptions, SolverChoice};
 use crate::problem::linear::LinearProblem;
 use crate::quad_graph::QuadGraph;
 use crate::solver::linear::Factored;
-use crate::solver::{LinearSolution, Observer, solve_linear, solve_with};
+use crate::solver::{LinearSolution, Observer, Phase, solve_linear, solve_with};
 
 /// The map of lowest H whose boundary is fixed.
 ///
@@ -51,6 +51,7 @@ impl MapOptions {
     /// # Errors
     /// Constraints that do not suffice; a solver that does not suit or fails.
     pub fn solve(&self, graph: &QuadGraph, fixed: Fixed, watch: &mut dyn Observer) -> Result<Map, MapError> {
+        watch.phase(Phase::Order);
         let problem = LinearProblem::new(graph, self.weight, &fixed)?;
         let solution = match &self.solver {
             SolverChoice::Linear(solver) => solve_with(&**solver, &problem, watch)?,

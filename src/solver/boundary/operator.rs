@@ -8,6 +8,7 @@ use super::BoundaryError;
 use crate::constraint::{Elimination, Fixed};
 use crate::energy::conformal::{Weight, block, weights};
 use crate::quad_graph::QuadGraph;
+use crate::solver::Phase;
 use crate::solver::linear::normal::{pattern, real_values};
 use crate::sparse::{Pattern, PrunedCholesky, SplitColumns};
 
@@ -44,11 +45,11 @@ struct Work {
 }
 
 impl<'a> Reduction<'a> {
-    /// Eliminates the interior: one real Cholesky factorisation. `factoring` is called when it begins.
+    /// Eliminates the interior: one real Cholesky factorisation. `tell` is called when a phase begins.
     ///
     /// # Errors
     /// Re ρ ≤ 0 somewhere; a factor that breaks down.
-    pub fn new(graph: &'a QuadGraph, factoring: impl FnOnce()) -> Result<Self, BoundaryError> {
+    pub fn new(graph: &'a QuadGraph, mut tell: impl FnMut(Phase)) -> Result<Self, BoundaryError> {
         let w = weights(graph, Weight::Integral)?;
         let mut position = vec![Pattern::NONE; graph.vertices];
         for (k, &v) in graph.boundary.iter().enumerate() {
@@ -56,7 +57,9 @@ impl<'a> Reduction<'a> {
         }
         let mut fixed = Fixed::default();
         graph.boundary.iter().for_each(|&v| fixed.hold(v, Complex64::ZERO));
+        tell(Phase::Order);
         let elimination = Elimination::for_factor(graph, &fixed);
+        tell(Phase::Assemble);
         let unknown = &elimination.unknown;
         let (mut outward, mut along) = (Vec::new(), Vec::new());
         for (q, quad) in graph.quads.iter().enumerate() {
@@ -90,7 +93,7 @@ impl<'a> Reduction<'a> {
             let pattern = pattern(graph, &elimination);
             let values = real_values(&pattern, graph, &elimination, &w);
             let columns = pattern.into_columns();
-            factoring();
+            tell(Phase::Factor);
             let broken = |reason| BoundaryError::Factorisation { unknowns, reason };
             Some(PrunedCholesky::new(&columns, elimination.order, &values, ports).map_err(broken)?)
         };

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use num_complex::Complex64;
 
 use super::{LinearSolver, SolveError, Unsuitable};
-use crate::laplacian::{Colouring, ConformalLaplacian, LaplacianError};
+use crate::laplacian::{Colouring, ConformalLaplacian, LaplacianError, Ordered};
 use crate::problem::linear::LinearProblem;
 use crate::quad_graph::QuadGraph;
 use crate::solver::{Observer, Phase};
@@ -46,7 +46,10 @@ pub(super) fn solve(
     let unsuitable = SolveError::Unsuitable { backend: backend.name(), reason: Unsuitable::NotPrimal };
     let Some((colouring, white)) = held(problem) else { return Err(unsuitable) };
     let (graph, z0) = (problem.graph, &problem.elimination.z0);
-    let laplacian = ConformalLaplacian::with(graph, colouring, 0, || watch.phase(Phase::Factor));
+    watch.phase(Phase::Order);
+    let ordered = Ordered::new(graph, colouring);
+    watch.phase(Phase::Assemble);
+    let laplacian = ordered.and_then(|ordered| ordered.factorise(graph, 0, || watch.phase(Phase::Factor)));
     let laplacian = laplacian.map_err(|error| match error {
         LaplacianError::Factorisation { unknowns, reason: Breakdown::TooLarge } => {
             SolveError::TooLarge { backend: backend.name(), size: unknowns }

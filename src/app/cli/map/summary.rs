@@ -176,8 +176,8 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     };
     writeln!(
         out,
-        "{}: {how}; read {:.3} s, assemble {:.3} s, factor {:.3} s, solve {:.3} s",
-        solver.backend, seconds.read, seconds.assemble, seconds.factor, seconds.solve
+        "{}: {how}; read {:.3} s, assemble {:.3} s, order {:.3} s, factor {:.3} s, solve {:.3} s",
+        solver.backend, seconds.read, seconds.assemble, seconds.order, seconds.factor, seconds.solve
     )?;
     let EnergyRecord { total, H, C, A, L, Lb, MIPS, SD } = &record.energy;
     let terms: Vec<String> = [("H", H), ("C", C), ("A", A), ("L", L), ("L'", Lb), ("MIPS", MIPS), ("SD", SD)]

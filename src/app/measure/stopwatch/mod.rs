@@ -97,6 +97,7 @@ fn phase_of(seconds: &mut Seconds, phase: Option<Phase>) -> &mut f64 {
     match phase {
         None => &mut seconds.read,
         Some(Phase::Assemble) => &mut seconds.assemble,
+        Some(Phase::Order) => &mut seconds.order,
         Some(Phase::Factor) => &mut seconds.factor,
         Some(Phase::Solve) => &mut seconds.solve,
         Some(Phase::Measure) => &mut seconds.measure,

@@ -41,7 +41,7 @@ pub(in crate::map) fn is_asked(options: &MapOptions) -> bool {
 /// The reduced operator of the problem's quad graph.
 fn reduction<'a>(setup: &Setup<'a>, watch: &mut dyn Observer) -> Result<Reduction<'a>, BoundaryError> {
     watch.phase(Phase::Assemble);
-    let reduction = Reduction::new(&setup.domain.graph, || watch.phase(Phase::Factor))?;
+    let reduction = Reduction::new(&setup.domain.graph, |phase| watch.phase(phase))?;
     watch.phase(Phase::Solve);
     Ok(reduction)
 }

@@ -65,7 +65,7 @@ pub(in crate::map) fn solve(
         let terms = stages.terms()?;
         unseen = hold_unseen(&mut stages.fixed, &terms, &first);
     }
-    let objective = stages.objective()?;
+    let objective = stages.objective(watch)?;
     let start = objective.freedoms.restrict(&first);
     let rule = StopRule { tolerance: options.tolerance, reference: None, max_iterations: options.max_iterations };
     let run = |rule: StopRule, watch: &mut dyn Observer| {

@@ -7,7 +7,7 @@ use crate::map::MapError;
 use crate::map::setup::Setup;
 use crate::problem::nonlinear::{Objective, Terms};
 use crate::quad_graph::metric::RestMetric;
-use crate::solver::{Minimiser, Minimum, Observer, Status, StopRule};
+use crate::solver::{Minimiser, Minimum, Observer, Phase, Status, StopRule};
 
 /// The factor by which L' is weakened in the first stage.
 ///
@@ -45,10 +45,12 @@ impl Stages<'_> {
         Ok(terms)
     }
 
-    pub fn objective(&self) -> Result<Objective, MapError> {
+    pub fn objective(&self, watch: &mut dyn Observer) -> Result<Objective, MapError> {
         let Setup { options, domain, .. } = self.setup;
         let graph = &domain.graph;
+        watch.phase(Phase::Order);
         let freedoms = Freedoms::for_factor(graph, &self.fixed);
+        watch.phase(Phase::Assemble);
         Ok(Objective { terms: self.terms()?, freedoms, norm: Dirichlet::new(graph, options.weight) })
     }
 
@@ -67,7 +69,7 @@ impl Stages<'_> {
         rule: StopRule,
         watch: &mut dyn Observer,
     ) -> Result<(Minimum, usize), MapError> {
-        let mut soft = self.objective()?;
+        let mut soft = self.objective(watch)?;
         for ((coefficient, _), kind) in soft.terms.iter_mut().zip(self.setup.expression.energies()) {
             let is = kind.properties();
             if is.fixes_scale && is.boundary_only {
@@ -95,7 +97,7 @@ impl Stages<'_> {
         rule: StopRule,
         watch: &mut dyn Observer,
     ) -> Result<(Minimum, usize), MapError> {
-        let mut objective = self.objective()?;
+        let mut objective = self.objective(watch)?;
         objective.terms.push((BARRIER[0], Box::new(Order::new(&self.setup.domain.graph))));
         let barrier = objective.terms.len() - 1;
         let mut iterations = 0;
