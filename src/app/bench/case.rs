@@ -28,6 +28,8 @@ impl MapClass {
 pub enum Source {
     /// A generated surface; `{n}` stands for the number of vertices along a side.
     Generated(&'static str),
+    /// Triangles around one vertex, as many as there are vertices on the rim.
+    Fan,
     /// A public file.
     File(&'static str),
 }
@@ -57,6 +59,7 @@ impl Case {
                 let side = (vertices as f64).sqrt().round().max(4.0);
                 Some(pattern.replace("{n}", &side.to_string()))
             }
+            Source::Fan if vertices <= self.largest => Some(format!("a fan of {vertices} triangles")),
             _ => None,
         }
     }
@@ -94,7 +97,15 @@ pub static CASES: &[Case] = &[
         source: Source::Generated("graph:cos+cos?n={n}&mesh=delaunay&points=random&seed=1"),
         largest: usize::MAX,
         slow_up_to: 100_000,
-        isometric_up_to: 10_000,
+        isometric_up_to: 100_000,
+    },
+    Case {
+        name: "fan",
+        about: "triangles, a flat cone: all of them around one vertex",
+        source: Source::Fan,
+        largest: 100_000,
+        slow_up_to: 0,
+        isometric_up_to: 0,
     },
     Case {
         name: "bff-face",
@@ -130,6 +141,8 @@ pub enum Program {
     Riemap(&'static [&'static str]),
     /// A function of `peers.py`, which needs these packages.
     Peer(&'static [Package]),
+    /// The program of Boundary First Flattening with these options.
+    Bff(&'static [&'static str]),
 }
 
 /// A Python package.
@@ -161,7 +174,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     },
     Contestant {
         name: "cholmod-harmonic",
-        about: "cotan Laplacian by numpy, boundary held by arc length, SuiteSparse's Cholesky",
+        about: "cotan Laplacian by numpy, boundary held by arc length, SuiteSparse's Cholesky; the assembly is told apart",
         kind: MapClass::Circle,
         program: Program::Peer(&[LIBIGL, CHOLMOD]),
         largest: usize::MAX,
@@ -169,7 +182,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     },
     Contestant {
         name: "libigl-harmonic",
-        about: "igl.harmonic, boundary held by arc length",
+        about: "igl.harmonic, boundary held by arc length; the whole function, assembly included",
         kind: MapClass::Circle,
         program: Program::Peer(&[LIBIGL]),
         largest: usize::MAX,
@@ -184,6 +197,14 @@ pub static CONTESTANTS: &[Contestant] = &[
         slow: true,
     },
     Contestant {
+        name: "bff-disc",
+        about: "Boundary First Flattening onto the disc, the whole program",
+        kind: MapClass::Circle,
+        program: Program::Bff(&["--flattenToDisk"]),
+        largest: usize::MAX,
+        slow: true,
+    },
+    Contestant {
         name: "riemap-free",
         about: "H + L', nonlinear: the boundary keeps its lengths",
         kind: MapClass::Free,
@@ -193,7 +214,7 @@ pub static CONTESTANTS: &[Contestant] = &[
     },
     Contestant {
         name: "libigl-lscm",
-        about: "igl.lscm, two boundary vertices held",
+        about: "igl.lscm, two boundary vertices held; the whole function, assembly included",
         kind: MapClass::Free,
         program: Program::Peer(&[LIBIGL]),
         largest: usize::MAX,
@@ -204,6 +225,22 @@ pub static CONTESTANTS: &[Contestant] = &[
         about: "MeshLab's least-squares conformal map",
         kind: MapClass::Free,
         program: Program::Peer(&[MESHLAB]),
+        largest: 100_000,
+        slow: true,
+    },
+    Contestant {
+        name: "bff-free",
+        about: "Boundary First Flattening of least area distortion, the whole program",
+        kind: MapClass::Free,
+        program: Program::Bff(&[]),
+        largest: usize::MAX,
+        slow: true,
+    },
+    Contestant {
+        name: "riemap-sd",
+        about: "the symmetric Dirichlet energy, to its minimum",
+        kind: MapClass::Isometric,
+        program: Program::Riemap(&["--energy", "SD"]),
         largest: 100_000,
         slow: true,
     },

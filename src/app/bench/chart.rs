@@ -10,7 +10,7 @@ type Reading = fn(&Measured) -> Option<f64>;
 
 /// Name of the file, title, label of the axis, and the plotted number.
 const PLOTS: [(&str, &str, &str, Reading); 2] = [
-    ("solve", "From the mesh in memory to the map", "processor seconds", |m| m.solve.cpu),
+    ("solve", "From the mesh in memory to the map", "processor seconds", |m| m.solve?.cpu),
     ("memory", "The most memory held at once", "bytes", |m| Some(m.peak_bytes? as f64)),
 ];
 

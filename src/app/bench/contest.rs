@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
+use num_complex::Complex64;
 use serde_json::Value;
 
+use super::bff;
 use super::median::medians;
 use super::python::{lacks, last_words, one_thread};
 use super::record::{ContestOutcome, Measured, Quality, Seconds};
@@ -19,6 +21,8 @@ pub(super) struct Rules<'a> {
     /// Path of this program.
     pub riemap: &'a Path,
     pub peers: Option<&'a Peers>,
+    /// The program of Boundary First Flattening.
+    pub bff: Option<&'a Path>,
     /// Folder of the maps that contestants write.
     pub folder: &'a Path,
     pub limit: Duration,
@@ -48,7 +52,7 @@ impl Entrant {
     pub fn new(contestant: &'static Contestant, expected: Option<f64>, rules: &Rules) -> Entrant {
         let limit = rules.limit.as_secs_f64();
         let over = expected.filter(|&seconds| seconds > limit);
-        let end = match lacks(rules.peers, contestant) {
+        let end = match lacks(rules.peers, rules.bff, contestant) {
             Some((lacks, install)) => Some(ContestOutcome::LeftOut { lacks, install }),
             None => over.map(|seconds| ContestOutcome::OverTheLimit { limit, expected: Some(seconds), spent: None }),
         };
@@ -87,19 +91,27 @@ impl Entrant {
 
 fn once(contestant: &Contestant, target: &Target, rules: &Rules) -> Result<Run, BenchError> {
     let of = |name: &str| rules.folder.join(name);
-    let (map, report) = (of("map"), of("report.json"));
+    let (map, obj, report) = (of("map"), of("map.obj"), of("report.json"));
     let path = |path: &PathBuf| path.to_string_lossy().into_owned();
-    let mut command = match (contestant.program, rules.peers) {
-        (Program::Peer(_), Some(peers)) => peers.command(&[contestant.name, &path(&target.triangles), &path(&map)]),
+    let mut command = match (contestant.program, rules.peers, rules.bff) {
+        (Program::Peer(_), Some(peers), _) => peers.command(&[contestant.name, &path(&target.triangles), &path(&map)]),
+        (Program::Bff(_), _, Some(bff)) => Command::new(bff),
         _ => Command::new(rules.riemap),
     };
-    if let Program::Riemap(options) = contestant.program {
-        command.arg("map").arg(&target.mesh).arg("-o").arg(of("map.obj")).arg("--report").arg(&report);
-        command.arg("--quiet").args(options);
-        one_thread(&mut command);
+    match contestant.program {
+        Program::Riemap(options) => {
+            command.arg("map").arg(&target.mesh).arg("-o").arg(&obj).arg("--report").arg(&report);
+            command.arg("--quiet").args(options);
+            one_thread(&mut command);
+        }
+        Program::Bff(options) => {
+            command.arg(&target.triangles).arg(&obj).args(options);
+            one_thread(&mut command);
+        }
+        Program::Peer(_) => {}
     }
     // What an earlier run has left is not of this one.
-    for file in [&map, &report] {
+    for file in [&map, &obj, &report] {
         let _ = fs::remove_file(file);
     }
     // In a folder without anything that a program might take for its own.
@@ -126,11 +138,24 @@ fn once(contestant: &Contestant, target: &Target, rules: &Rules) -> Result<Run, 
             }
             Err(_) => lost(),
         },
+        Program::Bff(_) if !obj.exists() => lost(),
+        Program::Bff(_) => {
+            let whole = Seconds { cpu: ended.cpu, wall: ended.wall };
+            let measured = Measured { whole, peak_bytes: ended.peak_bytes, ..Measured::default() };
+            Run::Done(measured, bff::read(&obj, target.vertices).map(|z| either_side(target, z)))
+        }
         Program::Peer(_) => match measured(&serde_json::from_str(ended.stdout.trim()).unwrap_or_default(), &ended) {
             Some(measured) => fs::read(&map).map_or_else(|_| lost(), |map| Run::Done(measured, target.quality(&map))),
             None => Run::Failed(format!("it printed `{}`", last_words(&ended.stdout))),
         },
     })
+}
+
+/// Measures a map of texture coordinates, or its mirror image if that has fewer flipped faces: the side is not part of them.
+fn either_side(target: &Target, z: Vec<Complex64>) -> Quality {
+    let mirrored = z.iter().map(Complex64::conj).collect();
+    let quality = target.measure(z);
+    if 2 * quality.flipped > target.faces { target.measure(mirrored) } else { quality }
 }
 
 /// Returns our report in the form of a peer's answer.
@@ -140,8 +165,9 @@ fn ours(report: &Value) -> Value {
         |seconds: &Value, phases: &[&str]| phases.iter().map(|phase| seconds[phase].as_f64()).sum::<Option<f64>>();
     let both = |phases: &[&str]| serde_json::json!({ "wall": sum(&solver["seconds"], phases), "cpu": sum(&solver["cpu_seconds"], phases) });
     serde_json::json!({
-        "solve": both(&["assemble", "factor", "solve"]),
-        "factor": both(&["factor", "solve"]),
+        "solve": both(&["assemble", "order", "factor", "solve"]),
+        "assembly": both(&["assemble"]),
+        "factor": both(&["order", "factor", "solve"]),
         "peak_bytes": solver["peak_bytes"],
     })
 }
@@ -151,7 +177,8 @@ fn ours(report: &Value) -> Value {
 fn measured(answer: &Value, ended: &Ended) -> Option<Measured> {
     let seconds = |of: &Value| Some(Seconds { cpu: of["cpu"].as_f64(), wall: of["wall"].as_f64()? });
     Some(Measured {
-        solve: seconds(&answer["solve"])?,
+        solve: Some(seconds(&answer["solve"])?),
+        assembly: seconds(&answer["assembly"]),
         factor: seconds(&answer["factor"]),
         whole: Seconds { cpu: ended.cpu, wall: ended.wall },
         peak_bytes: answer["peak_bytes"].as_u64().max(ended.peak_bytes),
@@ -164,6 +191,7 @@ fn quality(report: &Value) -> Quality {
         quasi_conformal: distortion["quasi_conformal"]["mean"].as_f64(),
         quasi_conformal_p99: distortion["quasi_conformal"]["p99"].as_f64(),
         area: distortion["area"]["mean"].as_f64(),
+        symmetric_dirichlet: distortion["symmetric_dirichlet"].as_f64(),
         // A number of our own report.
         flipped: distortion["flipped"].as_u64().unwrap_or_default() as usize,
     }

@@ -13,7 +13,8 @@ pub fn medians(runs: &[Measured]) -> Option<Measured> {
     };
     let bytes = median(runs.iter().filter_map(|run| run.peak_bytes).map(|b| b as f64));
     Some(Measured {
-        solve: seconds(&|run| Some(run.solve))?,
+        solve: seconds(&|run| run.solve),
+        assembly: seconds(&|run| run.assembly),
         factor: seconds(&|run| run.factor),
         whole: seconds(&|run| Some(run.whole))?,
         peak_bytes: bytes.map(|b| b as u64),
@@ -22,11 +23,10 @@ pub fn medians(runs: &[Measured]) -> Option<Measured> {
 
 /// Sets the ratio of every peer to our contestant of the same kind on the same mesh.
 pub fn compare(entries: &mut [Entry]) {
-    let cpu = |entry: &Entry| entry.median().and_then(|m| m.solve.cpu);
     let ours: Vec<_> = entries
         .iter()
         .filter(|e| contestant(e.contestant).is_some_and(|c| c.is_ours()))
-        .map(|e| (e.case, e.size, e.kind, cpu(e)))
+        .map(|e| (e.case, e.size, e.kind, e.median().copied()))
         .collect();
     for entry in entries {
         if contestant(entry.contestant).is_some_and(|c| c.is_ours()) {
@@ -34,8 +34,8 @@ pub fn compare(entries: &mut [Entry]) {
         }
         let own =
             ours.iter().find(|(case, size, kind, _)| (*case, *size, *kind) == (entry.case, entry.size, entry.kind));
-        let own = own.and_then(|(_, _, _, cpu)| *cpu);
-        entry.ratio = own.zip(cpu(entry)).map(|(own, peer)| own / peer).filter(|ratio| ratio.is_finite());
+        let own = own.and_then(|(_, _, _, median)| median.as_ref());
+        entry.ratio = own.zip(entry.median()).and_then(|(own, peer)| own.over(peer));
     }
 }
 
@@ -53,15 +53,15 @@ mod tests {
     }
 
     fn run(cpu: f64, peak_bytes: Option<u64>) -> Measured {
-        let solve = Seconds { cpu: Some(cpu), wall: 2.0 * cpu };
-        Measured { solve, factor: None, whole: Seconds { cpu: None, wall: 10.0 * cpu }, peak_bytes }
+        let solve = Some(Seconds { cpu: Some(cpu), wall: 2.0 * cpu });
+        Measured { solve, assembly: None, factor: None, whole: Seconds { cpu: None, wall: 10.0 * cpu }, peak_bytes }
     }
 
     #[test]
     fn medians_are_of_each_number_by_itself() {
         let runs = [run(3.0, Some(10)), run(1.0, Some(30)), run(2.0, None)];
         let median = medians(&runs).expect("three runs");
-        assert_eq!(median.solve, Seconds { cpu: Some(2.0), wall: 4.0 });
+        assert_eq!(median.solve, Some(Seconds { cpu: Some(2.0), wall: 4.0 }));
         assert_eq!(median.whole, Seconds { cpu: None, wall: 20.0 });
         assert_eq!((median.factor, median.peak_bytes), (None, Some(20)));
         assert_eq!(medians(&[]), None);
@@ -92,5 +92,21 @@ mod tests {
         let ratios: Vec<_> = entries.iter().map(|e| e.ratio).collect();
         // Ours have none, nor have peers that failed or stand alone.
         assert_eq!(ratios, [None, None, None, Some(0.5), Some(0.5), None, None]);
+    }
+
+    #[test]
+    fn only_what_both_tell_is_compared() {
+        let seconds = |cpu| Some(Seconds { cpu: Some(cpu), wall: cpu });
+        let whole = Measured { whole: Seconds { cpu: Some(8.0), wall: 9.0 }, ..Measured::default() };
+        let solve = Measured { solve: seconds(4.0), ..whole };
+        let factor = Measured { assembly: seconds(3.0), factor: seconds(1.0), ..solve };
+        let ours = Measured {
+            solve: seconds(6.0),
+            assembly: seconds(4.0),
+            factor: seconds(2.0),
+            whole: Seconds { cpu: Some(10.0), wall: 10.0 },
+            peak_bytes: None,
+        };
+        assert_eq!([factor, solve, whole].map(|its| ours.over(&its)), [Some(2.0), Some(1.5), Some(1.25)]);
     }
 }

@@ -6,10 +6,12 @@
 //! | `run.rs`, `contest.rs` | all meshes in sequence; on each mesh, the contestants in turns |
 //! | `python.rs`, `peers.py` | the interpreter with the peers, and the script it runs |
 //! | `target.rs` | the mesh as files, and the measurement of maps |
+//! | `bff.rs` | the maps of the program of Boundary First Flattening |
 //! | `exchange.rs` | the speed of reading and writing |
 //! | `record.rs`, `median.rs`, `requirement.rs` | the record; medians and ratios; performance bars |
 //! | `table.rs`, `chart.rs` | the record as Markdown, CSV and plots |
 
+mod bff;
 mod case;
 mod chart;
 mod contest;

@@ -41,6 +41,9 @@ const EXTRAS: &[Extra] = &[
     },
 ];
 
+/// The program of Boundary First Flattening.
+const BFF: &str = "bff-command-line";
+
 /// Number of lines of a failed command that are shown.
 const LINES: usize = 6;
 
@@ -145,10 +148,18 @@ pub(super) fn one_thread(command: &mut Command) {
     command.envs(ONE_THREAD.map(|name| (name, "1")));
 }
 
-/// Returns the package that a contestant lacks, and how to install it; `None` if it can run.
-pub(super) fn lacks(peers: Option<&Peers>, contestant: &Contestant) -> Option<(&'static str, String)> {
-    let Program::Peer(packages) = contestant.program else {
-        return None;
+/// Returns the package or program that a contestant lacks, and how to install it; `None` if it can
+/// run.
+pub(super) fn lacks(
+    peers: Option<&Peers>,
+    bff: Option<&Path>,
+    contestant: &Contestant,
+) -> Option<(&'static str, String)> {
+    let packages = match contestant.program {
+        Program::Riemap(_) => return None,
+        Program::Bff(_) if bff.is_some() => return None,
+        Program::Bff(_) => return Some((BFF, "build it and name it with --bff".to_owned())),
+        Program::Peer(packages) => packages,
     };
     let missing = packages.iter().find(|p| !peers.is_some_and(|peers| peers.versions.contains_key(p.name)))?;
     let into = peers.map(|peers| format!(" (into {})", peers.python.display())).unwrap_or_default();

@@ -19,14 +19,28 @@ pub struct Seconds {
 /// Times and memory of one process.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Measured {
-    /// Time from the mesh in memory to the map in memory: assembly, factorisation, solution.
-    pub solve: Seconds,
-    /// Part of it after the assembly, if a peer reports it.
+    /// Time from the mesh in memory to the map in memory: assembly, order, factorisation, solution.
+    /// `None` for programs that only tell their whole time.
+    pub solve: Option<Seconds>,
+    /// The assembly, where it is told apart.
+    pub assembly: Option<Seconds>,
+    /// The rest of the solve, where it is told apart: ordering or analysis, factorisation, solution.
     pub factor: Option<Seconds>,
     /// Time of the whole process, with reading and writing.
     pub whole: Seconds,
     /// Peak memory in bytes.
     pub peak_bytes: Option<u64>,
+}
+
+impl Measured {
+    /// Returns the processor seconds of this over those of `other`: of the factorisation if both tell it
+    /// apart, otherwise of the solve if both tell it, otherwise of the whole process.
+    pub fn over(&self, other: &Measured) -> Option<f64> {
+        let cpu = |seconds: Option<Seconds>| seconds.and_then(|s| s.cpu);
+        let parts = [(self.factor, other.factor), (self.solve, other.solve), (Some(self.whole), Some(other.whole))];
+        let ratio = parts.into_iter().find_map(|(ours, its)| Some(cpu(ours)? / cpu(its)?));
+        ratio.filter(|ratio| ratio.is_finite())
+    }
 }
 
 /// Quality of a map, always measured by our code.
@@ -38,6 +52,8 @@ pub struct Quality {
     pub quasi_conformal_p99: Option<f64>,
     /// Mean of max(t, 1/t), where t is the area distortion.
     pub area: Option<f64>,
+    /// Mean of the symmetric Dirichlet energy by area, of the map scaled to the area of the surface.
+    pub symmetric_dirichlet: Option<f64>,
     /// Number of flipped faces.
     pub flipped: usize,
 }
@@ -50,6 +66,7 @@ impl Quality {
             quasi_conformal: error.map(|e| e.mean),
             quasi_conformal_p99: error.map(|e| e.p99),
             area: distortion.area.as_ref().map(|a| a.mean),
+            symmetric_dirichlet: distortion.symmetric_dirichlet,
             flipped: distortion.flipped,
         }
     }
@@ -112,7 +129,7 @@ pub struct Entry {
     /// The outcome.
     #[serde(flatten)]
     pub outcome: ContestOutcome,
-    /// For peers with a map: processor seconds of our solve over those of this one.
+    /// For peers with a map: ours over this one by [`Measured::over`].
     pub ratio: Option<f64>,
 }
 
@@ -121,6 +138,14 @@ impl Entry {
     pub fn median(&self) -> Option<&Measured> {
         match &self.outcome {
             ContestOutcome::Done { median, .. } => Some(median),
+            _ => None,
+        }
+    }
+
+    /// The quality of its map, if there is one.
+    pub fn quality(&self) -> Option<&Quality> {
+        match &self.outcome {
+            ContestOutcome::Done { quality, .. } => Some(quality),
             _ => None,
         }
     }

@@ -7,8 +7,13 @@ use super::record::{ContestOutcome, Record};
 /// The quantity that a bar limits.
 #[derive(Clone, Copy, Debug)]
 enum Measure {
-    /// Processor seconds of the solve of the first contestant over those of the second.
+    /// Processor seconds of the first contestant over those of the second by [`Measured::over`](super::record::Measured::over):
+    /// of the factorisation, of the solve, or of the process, whichever both tell first.
     Ratio(&'static str, &'static str),
+    /// Symmetric Dirichlet energy of the map of the first contestant over that of the second.
+    Energy(&'static str, &'static str),
+    /// Processor seconds of the process of a contestant.
+    Process(&'static str),
     /// Peak memory of the process of a contestant, in GB of 10⁹ bytes.
     Peak(&'static str),
     /// Processor seconds of the solve of a contestant over those at the given smaller size.
@@ -34,6 +39,8 @@ struct Requirement {
     bound: Bound,
 }
 
+const TEN_THOUSAND: Option<usize> = Some(10_000);
+const HUNDRED_THOUSAND: Option<usize> = Some(100_000);
 const MILLION: Option<usize> = Some(1_000_000);
 
 const fn bar(
@@ -47,7 +54,7 @@ const fn bar(
 }
 
 use Bound::{AtLeast, AtMost};
-use Measure::{Growth, Peak, Ratio, Slowest, Whole};
+use Measure::{Energy, Growth, Peak, Process, Ratio, Slowest, Whole};
 
 const BARS: &[Requirement] = &[
     bar(
@@ -55,7 +62,86 @@ const BARS: &[Requirement] = &[
         "grid",
         MILLION,
         Ratio("riemap-circle", "cholmod-harmonic"),
+        AtMost(0.4),
+    ),
+    bar(
+        "free map of 10⁶ quads over CHOLMOD's harmonic map",
+        "grid",
+        MILLION,
+        Ratio("riemap-free", "cholmod-harmonic"),
+        AtMost(0.4),
+    ),
+    bar(
+        "circle map, Delaunay, 10⁴ vertices, over CHOLMOD's harmonic map",
+        "delaunay",
+        TEN_THOUSAND,
+        Ratio("riemap-circle", "cholmod-harmonic"),
+        AtMost(1.5),
+    ),
+    bar(
+        "circle map, Delaunay, 10⁵ vertices, over CHOLMOD's harmonic map",
+        "delaunay",
+        HUNDRED_THOUSAND,
+        Ratio("riemap-circle", "cholmod-harmonic"),
+        AtMost(1.5),
+    ),
+    bar(
+        "circle map, Delaunay, 10⁶ vertices, over CHOLMOD's harmonic map",
+        "delaunay",
+        MILLION,
+        Ratio("riemap-circle", "cholmod-harmonic"),
+        AtMost(0.9),
+    ),
+    bar(
+        "free map, Delaunay, 10⁴ vertices, over libigl's LSCM",
+        "delaunay",
+        TEN_THOUSAND,
+        Ratio("riemap-free", "libigl-lscm"),
         AtMost(0.6),
+    ),
+    bar(
+        "free map, Delaunay, 10⁵ vertices, over libigl's LSCM",
+        "delaunay",
+        HUNDRED_THOUSAND,
+        Ratio("riemap-free", "libigl-lscm"),
+        AtMost(0.6),
+    ),
+    bar("free map of bff-face over libigl's LSCM", "bff-face", None, Ratio("riemap-free", "libigl-lscm"), AtMost(0.6)),
+    bar(
+        "circle map, Delaunay, 10⁵ vertices, whole program over BFF's",
+        "delaunay",
+        HUNDRED_THOUSAND,
+        Ratio("riemap-circle", "bff-disc"),
+        AtMost(0.4),
+    ),
+    bar(
+        "free map, Delaunay, 10⁵ vertices, whole program over BFF's",
+        "delaunay",
+        HUNDRED_THOUSAND,
+        Ratio("riemap-free", "bff-free"),
+        AtMost(0.4),
+    ),
+    bar(
+        "SD, Delaunay, 10⁴ vertices, over libigl's SLIM of 20 iterations",
+        "delaunay",
+        TEN_THOUSAND,
+        Ratio("riemap-sd", "libigl-slim"),
+        AtMost(0.5),
+    ),
+    bar("energy SD of that map over SLIM's", "delaunay", TEN_THOUSAND, Energy("riemap-sd", "libigl-slim"), AtMost(1.0)),
+    bar(
+        "SD, Delaunay, 10⁵ vertices, over libigl's SLIM of 20 iterations",
+        "delaunay",
+        HUNDRED_THOUSAND,
+        Ratio("riemap-sd", "libigl-slim"),
+        AtMost(0.5),
+    ),
+    bar(
+        "energy SD of that map over SLIM's",
+        "delaunay",
+        HUNDRED_THOUSAND,
+        Energy("riemap-sd", "libigl-slim"),
+        AtMost(1.0),
     ),
     bar(
         "circle map of 10⁶ quads over libigl's harmonic map",
@@ -64,31 +150,32 @@ const BARS: &[Requirement] = &[
         Ratio("riemap-circle", "libigl-harmonic"),
         AtMost(0.25),
     ),
-    bar(
-        "circle map, Delaunay, 10⁶ vertices, over CHOLMOD's harmonic map",
-        "delaunay",
-        MILLION,
-        Ratio("riemap-circle", "cholmod-harmonic"),
-        AtMost(1.5),
-    ),
-    bar(
-        "free map of 10⁶ quads over CHOLMOD's harmonic map",
-        "grid",
-        MILLION,
-        Ratio("riemap-free", "cholmod-harmonic"),
-        AtMost(0.7),
-    ),
     bar("free map of 10⁶ quads over libigl's LSCM", "grid", MILLION, Ratio("riemap-free", "libigl-lscm"), AtMost(0.1)),
-    bar("free map of bff-face over libigl's LSCM", "bff-face", None, Ratio("riemap-free", "libigl-lscm"), AtMost(0.5)),
     bar(
         "H + A + L of 10⁵ quads over libigl's SLIM",
         "grid",
-        Some(100_000),
+        HUNDRED_THOUSAND,
         Ratio("riemap-isometric", "libigl-slim"),
         AtMost(0.3),
     ),
-    bar("peak memory, circle map of 10⁶ quads, GB", "grid", MILLION, Peak("riemap-circle"), AtMost(1.2)),
-    bar("peak memory, free map of 10⁶ quads, GB", "grid", MILLION, Peak("riemap-free"), AtMost(1.2)),
+    bar("peak memory, circle map, Delaunay, 10⁶ vertices, GB", "delaunay", MILLION, Peak("riemap-circle"), AtMost(1.7)),
+    bar("peak memory, free map, Delaunay, 10⁶ vertices, GB", "delaunay", MILLION, Peak("riemap-free"), AtMost(1.7)),
+    bar("peak memory, circle map of 10⁶ quads, GB", "grid", MILLION, Peak("riemap-circle"), AtMost(0.8)),
+    bar("peak memory, free map of 10⁶ quads, GB", "grid", MILLION, Peak("riemap-free"), AtMost(0.8)),
+    bar(
+        "circle map of a fan of 10⁵ triangles, whole program, s",
+        "fan",
+        HUNDRED_THOUSAND,
+        Process("riemap-circle"),
+        AtMost(10.0),
+    ),
+    bar(
+        "free map of a fan of 10⁵ triangles, whole program, s",
+        "fan",
+        HUNDRED_THOUSAND,
+        Process("riemap-free"),
+        AtMost(10.0),
+    ),
     bar("circle map of 10⁶ quads over that of 10⁵", "grid", MILLION, Growth("riemap-circle", 100_000), AtMost(15.0)),
     bar("free map of 10⁶ quads over that of 10⁵", "grid", MILLION, Growth("riemap-free", 100_000), AtMost(15.0)),
     bar(
@@ -143,15 +230,20 @@ impl Requirement {
     /// Returns the value, and whether it is only an upper bound.
     fn measure(&self, record: &Record) -> Option<(f64, bool)> {
         let median = |name: &str, size| record.entry(self.case, size, name).and_then(|entry| entry.median());
-        let cpu = |name: &str, size| median(name, size).and_then(|m| m.solve.cpu);
+        let cpu = |name: &str, size| median(name, size).and_then(|m| m.solve?.cpu);
         let (value, at_most) = match self.measure {
             Ratio(ours, peer) => {
                 let entry = record.entry(self.case, self.size, peer)?;
                 match entry.outcome {
                     ContestOutcome::OverTheLimit { spent: Some(spent), .. } => (cpu(ours, self.size)? / spent, true),
-                    _ => (cpu(ours, self.size)? / cpu(peer, self.size)?, false),
+                    _ => (median(ours, self.size)?.over(entry.median()?)?, false),
                 }
             }
+            Energy(ours, peer) => {
+                let energy = |name| record.entry(self.case, self.size, name)?.quality()?.symmetric_dirichlet;
+                (energy(ours)? / energy(peer)?, false)
+            }
+            Process(name) => (median(name, self.size)?.whole.cpu?, false),
             Peak(name) => (median(name, self.size)?.peak_bytes? as f64 / 1e9, false),
             Growth(name, smaller) => (cpu(name, self.size)? / cpu(name, Some(smaller))?, false),
             Whole(name) => (median(name, self.size)?.whole.cpu? / cpu(name, self.size)?, false),

@@ -9,8 +9,9 @@ use super::contest::{Entrant, Rules};
 use super::exchange::exchange;
 use super::median::compare;
 use super::record::{ContestOutcome, Entry, Record};
-use super::target::Target;
+use super::target::{Target, fan};
 use super::{BenchError, CASES, CONTESTANTS, Case, Peers, Source, case};
+use crate::input::{Input, InputError};
 
 /// The cases, sizes and limits of a comparison.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub struct Plan {
     pub sizes: Vec<usize>,
     /// Whether peers take part; those that are not installed are named in the record.
     pub against_peers: bool,
+    /// The program of Boundary First Flattening, `bff-command-line`, as an absolute path.
+    pub bff: Option<PathBuf>,
     /// Number of runs of each contestant on each mesh.
     pub repeats: usize,
     /// Time limit of a process.
@@ -62,11 +65,12 @@ pub fn run(plan: &Plan, peers: Option<&Peers>, tell: &mut dyn FnMut(Event)) -> R
     let folder = tempfile::Builder::new().prefix("riemap-bench-").tempdir();
     let folder = folder.map_err(BenchError::io("a temporary folder cannot be made"))?;
     let (folder, limit) = (folder.path(), plan.limit);
-    let rules = Rules { riemap: &riemap, peers, folder, limit, repeats: plan.repeats, patience: plan.patience };
+    let bff = plan.bff.as_deref();
+    let rules = Rules { riemap: &riemap, peers, bff, folder, limit, repeats: plan.repeats, patience: plan.patience };
     let mut record = Record::of_this_machine(peers, limit.as_secs_f64());
     for case in &cases {
         for (size, source) in meshes(case, plan, &mut record.passed_over) {
-            let target = Target::new(&source, folder)?;
+            let target = Target::new(open(case, size, source)?, folder)?;
             let (vertices, faces) = (target.vertices, target.faces);
             tell(Event::Mesh { case: case.name, vertices, faces });
             let mut entrants: Vec<Entrant> = CONTESTANTS
@@ -143,6 +147,14 @@ fn meshes(case: &Case, plan: &Plan, passed_over: &mut Vec<String>) -> Vec<(Optio
     sizes.sort_unstable();
     sizes.dedup();
     sizes.into_iter().filter_map(|size| Some((Some(size), case.mesh(size)?))).collect()
+}
+
+/// Opens the mesh of a case for the size asked for.
+fn open(case: &Case, size: Option<usize>, source: String) -> Result<Input, InputError> {
+    match (case.source, size) {
+        (Source::Fan, Some(triangles)) => Ok(Input::of(source, fan(triangles))),
+        _ => Input::open(&source),
+    }
 }
 
 /// Returns a lower estimate of the seconds of a process: those on the largest smaller mesh, times

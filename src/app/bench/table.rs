@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::record::{ContestOutcome, Entry, Measured, Quality, Record};
+use super::record::{ContestOutcome, Entry, Measured, Record};
 use super::requirement::{Verdict, verdicts};
 use super::{Contestant, contestant};
 
@@ -12,12 +12,17 @@ pub fn markdown(record: &Record) -> String {
     let versions: Vec<String> = record.versions.iter().map(|(name, version)| format!("{name} {version}")).collect();
     text += &format!(
         "Seconds of the processor (all threads, user and system) and of the clock, medians of the runs. Each run is a process of \
-         its own with one thread, contestants in turns. *Solve*: from the mesh in memory to the map there, assembly included \
-         (of that after the assembly: *factor*, where it is told apart). *Whole*: the process from start to end, reading and \
-         writing included; a peer's has the start of Python in it, ours the exact check of the map, its distortion and its writing \
-         as OBJ, where peers write bare numbers. Peers get quads split into triangles. Our maps are the conformal ones (`--valid off`), and flipped faces are counted as those of the peers. All maps are measured by our code on the \
-         faces of the mesh as it is. *Ours/its*: the solve of our map of the same kind over this one's, processor seconds. Slow \
-         contestants are kept from large meshes, and who has taken 15 s on a mesh is not run on it again.\n\n\
+         its own with one thread, contestants in turns. *Solve*: from the mesh in memory to the map in memory. It is the sum of \
+         *assembly* (ours: diagnosis, quad graph and matrices; CHOLMOD's: its matrix, made by numpy) and *factor* (ordering or \
+         analysis, factorisation and solution), where these are told apart; the functions of libigl and MeshLab assemble inside \
+         and are timed as a whole. *Whole*: the process from start to end, reading and writing included; a peer's has the start \
+         of Python in it, ours the exact check of the map, its distortion and its writing as OBJ, where peers of Python write \
+         bare numbers. BFF is a program that reads and writes OBJ and tells its whole time alone. Peers get quads split into \
+         triangles. Our maps are the conformal ones (`--valid off`), and flipped faces are counted as those of the peers. All maps are measured \
+         by our code on the faces of the mesh as it is; *SD* is the symmetric Dirichlet energy of the map scaled to the area of \
+         the surface, 4 for an isometry. *Ours/its*: the first map of ours of the same kind over this one, processor seconds: of \
+         *factor* where the peer tells it apart, otherwise of the solve, otherwise of the whole process. Slow contestants are \
+         kept from large meshes, and who has taken 15 s on a mesh is not run on it again.\n\n\
          Machine: {}. Versions: {}. Limit: {} s a process.\n\n",
         record.machine,
         versions.join(", "),
@@ -29,9 +34,9 @@ pub fn markdown(record: &Record) -> String {
         let first = mesh[0];
         let Entry { case, vertices, faces, .. } = first;
         text += &format!("\n## {case}: {vertices} vertices, {faces} faces\n\n");
-        text += "| contestant | map | runs | solve cpu | factor cpu | solve wall | whole cpu | whole wall | peak MB | \
-                 σ₁/σ₂ mean | 99 % | area | flipped | ours/its |\n";
-        text += &format!("|{}\n", " --: |".repeat(14));
+        text += "| contestant | map | runs | solve cpu | assembly cpu | factor cpu | solve wall | whole cpu | whole wall | \
+                 peak MB | σ₁/σ₂ mean | 99 % | area | SD | flipped | ours/its |\n";
+        text += &format!("|{}\n", " --: |".repeat(16));
         mesh.iter().for_each(|entry| text += &row(entry));
     }
     if !record.exchange.is_empty() {
@@ -64,8 +69,8 @@ pub fn bars(verdicts: &[Verdict]) -> String {
 /// Returns the numbers of all runs as CSV, one line per entry.
 pub fn csv(record: &Record) -> String {
     let mut text = String::from(
-        "case,size,vertices,faces,contestant,map,outcome,runs,solve_cpu,solve_wall,factor_cpu,whole_cpu,whole_wall,peak_bytes,\
-         quasi_conformal,quasi_conformal_p99,area,flipped,ratio\n",
+        "case,size,vertices,faces,contestant,map,outcome,runs,solve_cpu,solve_wall,assembly_cpu,factor_cpu,whole_cpu,whole_wall,peak_bytes,\
+         quasi_conformal,quasi_conformal_p99,area,symmetric_dirichlet,flipped,ratio\n",
     );
     for entry in &record.entries {
         let Entry { case, size, vertices, faces, contestant, kind, runs, outcome, ratio, .. } = entry;
@@ -77,10 +82,11 @@ pub fn csv(record: &Record) -> String {
         };
         let number = |x: Option<f64>| x.map(|x| format!("{x:?}")).unwrap_or_default();
         let of = |f: &dyn Fn(&Measured) -> Option<f64>| number(entry.median().and_then(f));
-        let measured = quality(entry);
+        let measured = entry.quality();
         let cells = [
-            of(&|m| m.solve.cpu),
-            of(&|m| Some(m.solve.wall)),
+            of(&|m| m.solve?.cpu),
+            of(&|m| Some(m.solve?.wall)),
+            of(&|m| m.assembly.and_then(|s| s.cpu)),
             of(&|m| m.factor.and_then(|f| f.cpu)),
             of(&|m| m.whole.cpu),
             of(&|m| Some(m.whole.wall)),
@@ -88,6 +94,7 @@ pub fn csv(record: &Record) -> String {
             number(measured.and_then(|q| q.quasi_conformal)),
             number(measured.and_then(|q| q.quasi_conformal_p99)),
             number(measured.and_then(|q| q.area)),
+            number(measured.and_then(|q| q.symmetric_dirichlet)),
             measured.map(|q| q.flipped.to_string()).unwrap_or_default(),
             number(*ratio),
         ];
@@ -113,21 +120,22 @@ fn meshes(record: &Record) -> Vec<Vec<&Entry>> {
 fn row(entry: &Entry) -> String {
     let (name, kind) = (entry.contestant, entry.kind.name());
     let ContestOutcome::Done { median, quality } = &entry.outcome else {
-        return format!("| {name} | {kind} | {}{} |\n", brief(&entry.outcome), " |".repeat(11));
+        return format!("| {name} | {kind} | {}{} |\n", brief(&entry.outcome), " |".repeat(13));
     };
     let seconds = |s: Option<f64>| s.map_or("–".to_owned(), |s| format!("{s:.3}"));
-    let quality = [quality.quasi_conformal, quality.quasi_conformal_p99, quality.area]
+    let quality = [quality.quasi_conformal, quality.quasi_conformal_p99, quality.area, quality.symmetric_dirichlet]
         .map(|q| q.map_or("–".to_owned(), |q| format!("{q:.4}")))
         .into_iter()
         .chain([quality.flipped.to_string()])
         .collect::<Vec<_>>()
         .join(" | ");
     format!(
-        "| {name} | {kind} | {} | {} | {} | {:.3} | {} | {:.3} | {} | {quality} | {} |\n",
+        "| {name} | {kind} | {} | {} | {} | {} | {} | {} | {:.3} | {} | {quality} | {} |\n",
         entry.runs.len(),
-        seconds(median.solve.cpu),
-        seconds(median.factor.and_then(|f| f.cpu)),
-        median.solve.wall,
+        seconds(median.solve.and_then(|s| s.cpu)),
+        seconds(median.assembly.and_then(|s| s.cpu)),
+        seconds(median.factor.and_then(|s| s.cpu)),
+        seconds(median.solve.map(|s| s.wall)),
         seconds(median.whole.cpu),
         median.whole.wall,
         median.peak_bytes.map_or("–".to_owned(), |b| format!("{:.0}", b as f64 / 1e6)),
@@ -179,13 +187,6 @@ fn notes(record: &Record) -> String {
         said.iter().for_each(|what| text += &format!("- {}\n", what.replace('\n', " ")));
     }
     text
-}
-
-fn quality(entry: &Entry) -> Option<Quality> {
-    match entry.outcome {
-        ContestOutcome::Done { quality, .. } => Some(quality),
-        _ => None,
-    }
 }
 
 /// Formats three significant digits, which suffice to compare with a bar.

@@ -1,5 +1,6 @@
 //! The mesh of a contest as files, in triangles for peers, and the measurement of their maps.
 
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
@@ -30,9 +31,8 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// Generates or reads `source`, and writes its files into `folder`.
-    pub fn new(source: &str, folder: &Path) -> Result<Target, BenchError> {
-        let input = Input::open(source)?;
+    /// Writes the files of the mesh `input` into `folder`.
+    pub fn new(input: Input, folder: &Path) -> Result<Target, BenchError> {
         let disc = OrientedMesh::new(&input.surface, &input.diagnosis())?;
         // The disc and no more: each of its vertices on a face, in one orientation.
         let surface = Surface { face_normals: None, ..disc.to_surface() };
@@ -65,12 +65,16 @@ impl Target {
         if let Some(k) = numbers.iter().position(|x| !x.is_finite()) {
             return Err(format!("its map is {} at vertex {} (0-based)", numbers[k], k / 2));
         }
-        let z = numbers.as_chunks::<2>().0.iter().map(|&[x, y]| Complex64::new(x, y)).collect();
+        Ok(self.measure(numbers.as_chunks::<2>().0.iter().map(|&[x, y]| Complex64::new(x, y)).collect()))
+    }
+
+    /// Measures a map with finite values, one a vertex.
+    pub fn measure(&self, z: Vec<Complex64>) -> Quality {
         // Dual vertices, which peers know nothing of, go where measuring wants them: it looks at
         // faces of the mesh.
         let z = self.domain.with_dual_vertices(z, &Fixed::default());
         let Domain { disc, graph, .. } = &self.domain;
-        Ok(Quality::of(&Distortion::new(disc, graph, None, &Image::of_disc(&z))))
+        Quality::of(&Distortion::new(disc, graph, None, &Image::of_disc(&z)))
     }
 }
 
@@ -78,6 +82,17 @@ impl Target {
 fn split(faces: &Faces) -> Faces {
     let of = |f: &[u32]| (1..f.len() - 1).map(|k| [f[0], f[k], f[k + 1]]).collect::<Vec<_>>();
     faces.iter().flat_map(of).collect()
+}
+
+/// A flat cone of that many triangles around its apex, as steep as a roof of one in five.
+pub(super) fn fan(triangles: usize) -> Surface {
+    let rim = (0..triangles).map(|k| {
+        let (y, x) = (TAU * k as f64 / triangles as f64).sin_cos();
+        [x, y, 0.0]
+    });
+    let count = triangles as u32;
+    let faces = (0..count).map(|k| [0, 1 + k, 1 + (k + 1) % count]).collect();
+    Surface { positions: std::iter::once([0.0, 0.0, 0.2]).chain(rim).collect(), faces, face_normals: None }
 }
 
 #[cfg(test)]
@@ -92,7 +107,8 @@ mod tests {
     fn a_map_of_a_peer_is_measured_on_the_faces_of_the_mesh() {
         let folder = tempfile::tempdir().expect("a folder");
         for (mesh, faces) in [("quad", 36), ("triangle", 72)] {
-            let target = Target::new(&format!("graph:flat?n=7&mesh={mesh}"), folder.path()).expect("a flat square");
+            let flat = Input::open(&format!("graph:flat?n=7&mesh={mesh}")).expect("a flat square");
+            let target = Target::new(flat, folder.path()).expect("a flat square");
             assert_eq!((target.vertices, target.faces), (49, faces));
             let triangles = Input::open(&target.triangles.to_string_lossy()).expect("triangles");
             assert_eq!((triangles.surface.faces.arity(), triangles.surface.faces.len()), (Some(3), 72));

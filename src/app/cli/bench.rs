@@ -37,6 +37,9 @@ pub struct Arguments {
     /// environment is in the user's cache folder.
     #[arg(long, value_name = "PROGRAM", conflicts_with = "no_peers")]
     python: Option<PathBuf>,
+    /// The program of Boundary First Flattening, bff-command-line; it takes part where it is named
+    #[arg(long, value_name = "PROGRAM", conflicts_with = "no_peers")]
+    bff: Option<PathBuf>,
     /// Compile scikit-sparse with the CHOLMOD of the system into that environment, if it is missing
     #[arg(long, conflicts_with_all = ["no_peers", "python"])]
     build_scikit_sparse: bool,
@@ -52,7 +55,7 @@ pub struct Arguments {
 const PATIENCE: Duration = Duration::from_secs(15);
 
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<()> {
-    let plan = plan(arguments);
+    let plan = plan(arguments)?;
     // Requests that must fail are refused before hours are spent.
     bench::chosen(&plan.cases)?;
     let folder = folder(arguments);
@@ -97,21 +100,24 @@ fn folder(arguments: &Arguments) -> Option<PathBuf> {
     Some(results.join("bench"))
 }
 
-fn plan(arguments: &Arguments) -> Plan {
+fn plan(arguments: &Arguments) -> Result<Plan> {
     let sizes: Vec<usize> = match (arguments.sizes.as_slice(), arguments.quick) {
         ([], true) => vec![1_000],
         ([], false) => vec![10_000, 100_000, 1_000_000],
         (sizes, _) => sizes.iter().map(|&n| n as usize).collect(),
     };
-    Plan {
+    // Contestants run in a folder of their own.
+    let absolute = |path: &PathBuf| path.canonicalize().with_context(|| format!("--bff {}", path.display()));
+    Ok(Plan {
         cases: arguments.cases.clone(),
         sizes,
         against_peers: !arguments.no_peers,
+        bff: arguments.bff.as_ref().map(absolute).transpose()?,
         repeats: arguments.repeats.unwrap_or(if arguments.quick { 1 } else { 3 }) as usize,
         limit: Duration::from_secs(arguments.limit),
         patience: PATIENCE,
         data: data_folders(std::env::var_os("RIEMAP_DATA")),
-    }
+    })
 }
 
 /// Returns the interpreter with the peers. One that the user named must work; our own environment
@@ -147,8 +153,8 @@ fn print(out: &mut dyn Write, event: &Event) -> Result<()> {
             writeln!(out, "\n{case}: {vertices} vertices, {faces} faces")?;
             writeln!(
                 out,
-                "  {:<18} {:>9} {:>9} {:>9} {:>8} {:>8} {:>7} {:>8}",
-                "cpu seconds", "solve", "whole", "wall", "peak MB", "σ₁/σ₂", "flipped", "ours/its"
+                "  {:<18} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>7} {:>8}",
+                "cpu seconds", "solve", "factor", "whole", "wall", "peak MB", "σ₁/σ₂", "flipped", "ours/its"
             )?;
         }
         Event::Entry(entry) => line(out, entry)?,
@@ -173,8 +179,9 @@ fn line(out: &mut dyn Write, entry: &Entry) -> Result<()> {
     let seconds = |s: Option<f64>| s.map_or("–".to_owned(), |s| format!("{s:.3}"));
     writeln!(
         out,
-        "  {contestant:<18} {:>9} {:>9} {:>9.3} {:>8} {:>8} {:>7} {:>8}",
-        seconds(median.solve.cpu),
+        "  {contestant:<18} {:>9} {:>9} {:>9} {:>9.3} {:>8} {:>8} {:>7} {:>8}",
+        seconds(median.solve.and_then(|s| s.cpu)),
+        seconds(median.factor.and_then(|s| s.cpu)),
         seconds(median.whole.cpu),
         median.whole.wall,
         median.peak_bytes.map_or("–".to_owned(), |bytes| (bytes / 1_000_000).to_string()),
