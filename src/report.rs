@@ -201,9 +201,10 @@ pub struct SolverRecord {
     pub peak_bytes: Option<u64>,
     /// Smallest singular value of the Jacobian of a nonlinear problem.
     pub smallest_singular_value: Option<f64>,
-    /// Condition that the map meets exactly: equation (2) on every quad (`conformal`), or the
-    /// boundary on the circle or with its lengths and H minimal under this condition (`circle`,
-    /// `lengths`). `None` for a minimum of the energy.
+    /// Condition that the map meets exactly: equation (2) on every quad (`conformal`); the boundary
+    /// on the circle, with H minimal under this condition (`circle`); the boundary edges of the mesh
+    /// with their lengths (`lengths`), and equation (2), on quad meshes as far as these permit.
+    /// `None` for a minimum of the energy.
     pub exactly: Option<Exactly>,
     /// ε of the two circles `|z|² = 1 ± ε` on which the boundary of an exactly conformal circle map
     /// lies.

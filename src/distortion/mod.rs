@@ -56,6 +56,18 @@ pub struct QuasiConformal {
     pub max: f64,
 }
 
+/// The lengths of the mesh's edges.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LengthDistortion {
+    /// Mean of max(t, 1/t) with t = image length / length, after scaling the map to the surface's area.
+    pub mean: f64,
+    /// The largest of these.
+    pub max: f64,
+    /// The largest | |e|/l − 1 | over the boundary edges of the mesh, without any scaling, where l is the
+    /// prescribed length or that on the surface; `None` unless the boundary is free.
+    pub boundary_max: Option<f64>,
+}
+
 /// The measurements of a map that are reported. Fields are `None` if no face of positive area can
 /// be measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -66,11 +78,10 @@ pub struct Distortion {
     pub area: Option<MeanMax>,
     /// Mean of σ1² + σ2² + σ1⁻² + σ2⁻² after the same scaling, weighted by area; 4 is isometric.
     pub symmetric_dirichlet: Option<f64>,
-    /// r| / (|ρ| |z2 − z0|) per quad, where r is the residual of (2).
+    /// |r| / (|ρ| |z2 − z0|) per quad, where r is the residual of (2).
     pub rho_residual: Option<MeanMax>,
-    /// max(t, 1/t) with t = image length / length over the edges of the mesh, after the same
-    /// scaling.
-    pub length: Option<MeanMax>,
+    /// Lengths of the edges of the mesh.
+    pub length: Option<LengthDistortion>,
     /// The smallest scale |a| = ½ (σ1 + σ2) of a face relative to the largest; 1 if all are equal.
     ///
     /// Double precision resolves positions to 1e-16 of their distance from 0, so parts of a map
@@ -214,7 +225,7 @@ fn length_distortion(
     planes: Option<&TangentPlanes>,
     image: &Image,
     scale: f64,
-) -> Option<MeanMax> {
+) -> Option<LengthDistortion> {
     let faces = &disc.faces;
     let ratio = |f: usize, c: usize| {
         let next = next_in(faces, f, c);
@@ -224,7 +235,8 @@ fn length_distortion(
     };
     let shapes = (0..disc.source_faces()).filter(|&f| !disc.surrogates.has(f));
     let edges = shapes.flat_map(|f| faces.corner_range(f).map(move |c| (f, c)));
-    mean_max(edges.map(|(f, c)| ratio(f, c)).filter(|t| t.is_finite()))
+    let all = mean_max(edges.map(|(f, c)| ratio(f, c)).filter(|t| t.is_finite()))?;
+    Some(LengthDistortion { mean: all.mean, max: all.max, boundary_max: None })
 }
 
 /// Returns σ1/σ2 of every face for drawing: +∞ if a face is flipped or collapsed, 1 if it is

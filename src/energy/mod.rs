@@ -219,7 +219,7 @@ pub static ENERGIES: &[EnergyRow] = &[
     },
     EnergyRow {
         name: "Lb",
-        about: "L': as L, over the boundary edges",
+        about: "L': as L, over the boundary edges (of triangle meshes their halves, as in the paper)",
         properties: Properties { fixes_scale: true, boundary_only: true, ..NONE },
         make: |rest| Ok(Box::new(Metric::boundary_edges(rest))),
     },

@@ -23,6 +23,7 @@ mod factor;
 mod green;
 mod loops;
 mod matrix;
+mod outflow;
 mod rows;
 
 pub use colouring::{BlackQuad, Colouring};

@@ -161,34 +161,39 @@ pub struct LengthsRecord {
     pub edges: usize,
     /// Sum of the prescribed lengths.
     pub perimeter: f64,
-    ///  |e|/l − 1 | over the boundary edges of the quad graph; on triangle meshes these are halves of edges.
+    /// | |e|/l − 1 | over the mesh's boundary edges.
     pub error: MeanMax,
-    /// The same over the mesh's edges, whose halves need not be collinear.
+    /// The same; reports have both names.
     pub mesh_error: MeanMax,
 }
 
 impl LengthsRecord {
     /// Makes the record of a map of the graph, whose boundary lengths are the prescribed ones.
     pub fn new(prescribed: &Prescribed, disc: &OrientedMesh, graph: &QuadGraph, z: &[Complex64]) -> Self {
-        let (n, edges) = (graph.boundary.len(), disc.boundary.len());
-        let errors = |step: usize| {
-            let error = |k: usize| {
-                let length: f64 = graph.boundary_length[k..k + step].iter().sum();
-                let [a, b] = [k, (k + step) % n].map(|k| z[graph.boundary[k] as usize]);
-                ((b - a).norm() / length - 1.0).abs()
-            };
-            let errors = || (0..n).step_by(step).map(error);
-            MeanMax {
-                mean: errors().sum::<f64>() / (n / step) as f64,
-                max: errors().fold(0.0, |a, b| if a >= b { a } else { b }),
-            }
-        };
+        let error = boundary_errors(disc, graph, z);
         LengthsRecord {
             given: prescribed.unit,
-            edges,
+            edges: disc.boundary.len(),
             perimeter: graph.perimeter(),
-            error: errors(1),
-            mesh_error: errors(n / edges),
+            error,
+            mesh_error: error,
         }
+    }
+}
+
+/// | |e|/l − 1 | over the mesh's boundary edges in the map that puts the vertices at `z`. l are the boundary lengths of `graph`, of a
+/// triangle's edge those of its halves together.
+pub(super) fn boundary_errors(disc: &OrientedMesh, graph: &QuadGraph, z: &[Complex64]) -> MeanMax {
+    let n = graph.boundary.len();
+    let step = n / disc.boundary.len();
+    let error = |k: usize| {
+        let length: f64 = graph.boundary_length[k..k + step].iter().sum();
+        let [a, b] = [k, (k + step) % n].map(|k| z[graph.boundary[k] as usize]);
+        ((b - a).norm() / length - 1.0).abs()
+    };
+    let errors = || (0..n).step_by(step).map(error);
+    MeanMax {
+        mean: errors().sum::<f64>() / (n / step) as f64,
+        max: errors().fold(0.0, |a, b| if a >= b { a } else { b }),
     }
 }

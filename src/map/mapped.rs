@@ -1,3 +1,4 @@
+use super::lengths::boundary_errors;
 use super::periodic::PeriodicMap;
 use super::{Domain, Map};
 use crate::distortion::{Distortion, Image, Validity, mesh_boundary};
@@ -47,7 +48,8 @@ impl Mapped {
     /// Returns the same surface with another map, without periods, measured anew.
     #[must_use]
     pub fn with(self, map: Map) -> Self {
-        let (distortion, validity) = measure(&self.domain, &map, None);
+        let is_free = self.distortion.length.is_some_and(|length| length.boundary_max.is_some());
+        let (distortion, validity) = measure(&self.domain, &map, None, is_free);
         Mapped { map, torus: None, distortion, validity, ..self }
     }
 
@@ -57,12 +59,20 @@ impl Mapped {
     }
 }
 
-/// Measures the distortion of a map, and tests whether it is bijective.
-pub(super) fn measure(domain: &Domain, map: &Map, torus: Option<&PeriodicMap>) -> (Distortion, Validity) {
+/// Measures the distortion of a map, and tests whether it is bijective; if the boundary is free, measures its lengths too.
+pub(super) fn measure(
+    domain: &Domain,
+    map: &Map,
+    torus: Option<&PeriodicMap>,
+    is_free: bool,
+) -> (Distortion, Validity) {
     let image = image(map, torus);
     let mut distortion = Distortion::new(&domain.disc, &domain.graph, domain.planes.as_ref(), &image);
     if map.on_circle {
         distortion.boundary_out_of_order = Some(out_of_order(&mesh_boundary(&domain.graph, &map.z)));
+    }
+    if let Some(length) = distortion.length.as_mut().filter(|_| is_free) {
+        length.boundary_max = Some(boundary_errors(&domain.disc, &domain.graph, &map.z).max);
     }
     (distortion, Validity::new(&domain.disc, |c| image.corner(&domain.disc, c)))
 }

@@ -72,6 +72,8 @@ pub(super) struct Prepared {
     component: Component,
     pub cut: CutRecord,
     pub domain: Domain,
+    /// Whether the boundary is free.
+    is_free: bool,
 }
 
 impl Prepared {
@@ -93,14 +95,16 @@ impl Prepared {
         let component = topology.components[0].clone();
         drop(topology);
         let domain = Domain::with_planes(disc, planes, options)?;
-        Ok(Prepared { source_vertices: input.surface.positions.len(), findings, component, cut, domain })
+        let source_vertices = input.surface.positions.len();
+        let is_free = matches!(options.boundary, Boundary::Free { .. });
+        Ok(Prepared { source_vertices, findings, component, cut, domain, is_free })
     }
 
     /// The surface with its map, measured.
     pub fn mapped(self, map: Map, torus: Option<PeriodicMap>, observer: &mut dyn Observer) -> Mapped {
         observer.phase(Phase::Measure);
-        let Prepared { source_vertices, findings, component, cut, domain } = self;
-        let (distortion, validity) = measure(&domain, &map, torus.as_ref());
+        let Prepared { source_vertices, findings, component, cut, domain, is_free } = self;
+        let (distortion, validity) = measure(&domain, &map, torus.as_ref(), is_free);
         Mapped { source_vertices, findings, component, cut, domain, map, torus, distortion, validity }
     }
 }

@@ -33,7 +33,7 @@ pub enum Exactly {
     Circle,
     /// (2) on every quad.
     Conformal,
-    /// The boundary edges have their rest lengths.
+    /// The mesh's boundary edges have the lengths asked for, and (2) holds on every quad; on quad meshes H is the lowest under that.
     Lengths,
 }
 

@@ -114,7 +114,8 @@ fn the_lengths_of_a_regular_polygon_make_a_circle() {
 
 #[test]
 fn levenberg_marquardt_keeps_the_same_lengths() {
-    for name in ["graph:cos+cos?n=17", "sphere?n=12&mesh=triangle"] {
+    // On quad meshes: of triangle meshes the energy L' keeps the half edges.
+    for name in ["graph:cos+cos?n=17", "sphere?n=12"] {
         let input = Input::open(name).unwrap();
         let count = boundary(&map(&input, &free(None))).len();
         let wavy: Vec<f64> = (0..count).map(|k| 1.0 + 0.2 * (6.0 * k as f64 / count as f64).sin()).collect();

@@ -1,4 +1,4 @@
-//! Backend `reduced`: the operator on the boundary, circle maps on the circle, free maps with exact lengths.
+//! Solver `reduced`: exactly conformal circle maps, and free maps whose boundary edges have their lengths.
 
 use std::f64::consts::TAU;
 
@@ -6,10 +6,12 @@ use crate::common::*;
 use num_complex::Complex64;
 use riemap::energy::conformal::{Weight, normal_product, normal_product_scale, weights};
 use riemap::input::Input;
-use riemap::map::{Boundary, Exactly, MapError, MapOptions, Mapped, Pin, Provenance, RhoSource, Valid, map_input};
+use riemap::map::{
+    Boundary, Ending, Exactly, MapError, MapOptions, Mapped, Pin, Provenance, RhoSource, Valid, map_input,
+};
 use riemap::quad_graph::curvature;
-use riemap::solver::Silent;
 use riemap::solver::boundary::{BoundaryError, Reduction};
+use riemap::solver::{Silent, Status};
 
 fn circle(solver: &str) -> MapOptions {
     // The plain maps, folds and all.
@@ -33,12 +35,9 @@ fn h(mapped: &Mapped) -> f64 {
     mapped.map.energies[0].1
 }
 
-/// Largest relative error of a boundary length.
+/// Largest relative error of the length of a boundary edge of the mesh.
 fn length_error(mapped: &Mapped) -> f64 {
-    let (graph, z) = (&mapped.domain.graph, &mapped.map.z);
-    let n = graph.boundary.len();
-    let at = |k: usize| z[graph.boundary[k % n] as usize];
-    (0..n).map(|k| ((at(k + 1) - at(k)).norm() / graph.boundary_length[k] - 1.0).abs()).fold(0.0, f64::max)
+    mapped.distortion.length.unwrap().boundary_max.unwrap()
 }
 
 #[test]
@@ -175,6 +174,68 @@ fn boundary_lengths_are_kept_to_ten_times_the_tolerance_and_h_vanishes_on_smooth
 }
 
 #[test]
+fn boundary_edges_of_free_maps_have_their_lengths_and_h_vanishes() {
+    for (surface, n) in [("graph:cos+cos?n=", 17), ("graph:cos+cos?n=", 33), ("sphere?n=", 16), ("torus-patch?n=", 16)]
+    {
+        for kind in ["quad", "triangle"] {
+            let name = format!("{surface}{n}&mesh={kind}");
+            let mapped = map(&name, &free("reduced"));
+            println!(
+                "{name}: {} steps, H {:e}, lengths {:e}",
+                mapped.map.iterations,
+                h(&mapped),
+                length_error(&mapped)
+            );
+            assert!(length_error(&mapped) < 1.1e-9, "{name}: {:e}", length_error(&mapped));
+            // On these quads the lengths, met to 1e-9, leave H nothing else.
+            assert!(h(&mapped) < 1e-17, "{name}: {:e}", h(&mapped));
+            assert_eq!((mapped.distortion.flipped, mapped.map.exactly), (0, Some(Exactly::Lengths)));
+        }
+    }
+}
+
+#[test]
+fn cones_and_fans_are_flattened_at_their_true_size() {
+    let Some(folder) = data_folder() else { return };
+    for (file, mean) in [("flatten/cone64.obj", 1.41508), ("flatten/fan1000.obj", 1.01981)] {
+        let path = folder.join(file);
+        if !path.exists() {
+            continue;
+        }
+        let mapped = map(path.to_str().unwrap(), &free("auto"));
+        assert!(length_error(&mapped) < 1.1e-9, "{file}: {:e}", length_error(&mapped));
+        let error = mapped.distortion.quasi_conformal.unwrap().mean;
+        // The numbers of a prototype that keeps the lengths by multipliers.
+        assert!(error < mean, "{file}: {error}");
+        assert_eq!(mapped.distortion.flipped, 0, "{file}");
+    }
+}
+
+#[test]
+fn free_maps_of_public_discs_have_the_lengths_of_their_boundary() {
+    let Some(folder) = data_folder() else { return };
+    let discs =
+        ["bff-face.obj", "camelhead.off", "cat_head.obj", "maze.obj", "three_peaks.off"].map(|f| format!("tri/{f}"));
+    for file in discs.into_iter().chain(["quad/inspired_mesh_quads_Smooth.off", "flatten/panel.obj"].map(str::to_owned))
+    {
+        let path = folder.join(&file);
+        if !path.exists() {
+            continue;
+        }
+        let mapped = map(path.to_str().unwrap(), &free("auto"));
+        println!(
+            "{file}: {} steps, {:?}, lengths {:e}",
+            mapped.map.iterations,
+            mapped.map.ending,
+            length_error(&mapped)
+        );
+        assert_eq!(mapped.map.ending, Ending::Minimised(Status::Converged), "{file}");
+        assert_eq!(mapped.map.exactly, Some(Exactly::Lengths), "{file}");
+        assert!(length_error(&mapped) < 1.1e-9, "{file}: {:e}", length_error(&mapped));
+    }
+}
+
+#[test]
 fn on_irregular_meshes_free_maps_are_as_conformal_as_levenberg_marquardts() {
     for name in ["sphere?n=12&mesh=delaunay", "enneper?n=12&mesh=triangle", "graph:cos+cos?n=15&jitter=0.3&seed=2"] {
         let (reduced, soft) = (map(name, &free("auto")), map(name, &free("levenberg-marquardt")));
@@ -243,12 +304,11 @@ fn what_does_not_reduce_is_refused_by_name_and_left_to_others_by_auto() {
     assert_eq!(map(name, &weighted).map.z, map(name, &circle("auto")).map.z);
     let obtuse = "graph:cos+cos?n=9&mesh=triangle&jitter=0.4";
     let with_circumcentres = |solver| MapOptions { dual: "circumcentre".to_owned(), ..circle(solver) };
-    // Negative ρ are no obstacle to a circle map, but to the weights of H.
+    // Negative ρ are no obstacle, only to the weights of H.
     let round = map(obtuse, &with_circumcentres("auto"));
     assert_eq!(round.map.exactly, Some(Exactly::Conformal));
-    let free_boundary = MapOptions { boundary: Boundary::FREE, ..with_circumcentres("reduced") };
-    let error = refusal(obtuse, &free_boundary);
-    assert!(matches!(error, MapError::Reduced(BoundaryError::NonPositiveRho(_))), "{error}");
+    let flat = map(obtuse, &MapOptions { boundary: Boundary::FREE, ..with_circumcentres("auto") });
+    assert_eq!((flat.map.exactly, length_error(&flat) < 1e-9), (Some(Exactly::Lengths), true));
 }
 
 #[test]

@@ -14,7 +14,7 @@ pub enum Boundary {
         /// Whether the boundary points are kept in order.
         ordered: bool,
     },
-    /// The boundary keeps its lengths: H + L', unless an energy is given.
+    /// The boundary edges keep their lengths, and H = 0; an energy that is given is minimised instead.
     Free {
         /// The lengths of the boundary edges; by default those at rest.
         lengths: Option<BoundaryLengths>,

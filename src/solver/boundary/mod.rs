@@ -2,14 +2,17 @@
 //!
 //! - [`two_circle_map`]: circle maps with H = 0, black and white boundary points on two concentric circles, over the
 //!   [conformal Laplacian](crate::laplacian).
-//! - [`free_map`]: the boundary edges of the quad graph *exactly* of given lengths, H the lowest. H + γ'L' comes to this as γ'
-//!   grows, and is the same where it can vanish.
+//! - [`mesh_edge_map`]: free maps of triangle meshes with H = 0. The boundary edges of the mesh have exactly their prescribed
+//!   lengths, and white vertices are as near as possible to the positions that black ones suggest, over the same matrix.
+//! - [`free_map`]: free maps of quad meshes. All boundary edges of the quad graph have exactly their prescribed lengths, and
+//!   H is minimal: the limit of H + γ'L' as γ' grows.
 //! - [`Differentials`]: holomorphic differentials and period matrices of closed surfaces.
 
 mod angles;
 mod conjugate;
 mod free;
 mod gmres;
+mod mesh_edges;
 mod norm;
 mod operator;
 mod periods;
@@ -17,6 +20,7 @@ mod turning;
 mod two_circles;
 
 pub use free::{FreeMap, FreeProblem, FreeStalled, free_map};
+pub use mesh_edges::{Keep, Layout, MeshEdgeMap, MeshEdgeProblem, mesh_edge_map};
 pub use operator::Reduction;
 pub use periods::{Differentials, DifferentialsError, PERIODS_NAME};
 pub use two_circles::{

@@ -32,9 +32,9 @@ pub struct Arguments {
     pub(super) output: Option<PathBuf>,
     /// Behaviour of the boundary: circle, free, fixed, periodic [default: circle]
     ///
-    /// circle: the boundary slides on the unit circle (energy H + C). free: the boundary edges keep
-    /// their lengths (H + L'). fixed: the boundary is pinned on --shape or at --positions (H).
-    /// periodic: a closed surface of genus 1 is mapped with two periods (H).
+    /// circle: the boundary slides on the unit circle (energy H + C). free: the boundary edges of the
+    /// mesh have exactly their lengths (H = 0). fixed: the boundary is pinned on --shape or at
+    /// --positions (H). periodic: a closed surface of genus 1 is mapped with two periods (H).
     #[arg(long, value_parser = by_name::<BoundaryName>, help_heading = "Boundary and constraints")]
     pub(super) boundary: Option<BoundaryName>,
     /// Cut the surface open to a disc

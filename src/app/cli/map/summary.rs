@@ -5,7 +5,7 @@ use std::io::Write;
 use anyhow::Result;
 
 use crate::io::LengthUnit;
-use crate::map::{Boundary, Ending, MapOptions, Mapped, PinnedPoints, Replacement};
+use crate::map::{Boundary, Ending, Exactly, MapOptions, Mapped, PinnedPoints, Replacement};
 use crate::report::{EnergyRecord, Report};
 use crate::solver::Status;
 
@@ -59,6 +59,14 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
             "riemap: note: the conformal map {was} and was replaced by one that passes the exact check; --valid off keeps it"
         );
     }
+    if let Some(error) = distortion.length.and_then(|length| length.boundary_max)
+        && map.exactly != Some(Exactly::Lengths)
+        && error > LENGTHS_LOST
+    {
+        eprintln!(
+            "riemap: note: the lengths of the boundary edges are not kept: the largest relative error is {error:.1e}"
+        );
+    }
     if let Some(Replacement::LessDistorted { mean }) = map.provenance.replaced.map(|replaced| replaced.by) {
         eprintln!(
             "riemap: note: the conformal map had a mean σ₁/σ₂ of {mean:.3} and was replaced by one of less distortion; --valid \
@@ -105,6 +113,9 @@ pub(super) fn warn(options: &MapOptions, mapped: &Mapped) {
         eprintln!("riemap: warning: {points} out of order along the circle; {help}");
     }
 }
+
+/// Relative error of boundary lengths above which a note says that they are not kept.
+const LENGTHS_LOST: f64 = 1e-6;
 
 /// A minimisation converges slowly or not at all if the scales of its parts differ by more than
 /// this.
@@ -161,11 +172,10 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
             plural(solver.iterations, "iteration", "iterations"),
             solver.epsilon.unwrap_or_default()
         ),
-        (Some(residual), _) if solver.exactly.is_some() => format!(
-            "{} after {}, lengths to {residual:.1e}",
-            solver.status,
-            plural(solver.iterations, "iteration", "iterations")
-        ),
+        // The lengths of the boundary have a line of their own.
+        (Some(_), _) if solver.exactly.is_some() => {
+            format!("{} after {}", solver.status, plural(solver.iterations, "iteration", "iterations"))
+        }
         (Some(residual), _) => format!("to a relative residual of {residual:.1e}"),
         (None, gradient) => format!(
             "{} after {}, |gradient| {:.1e}",
@@ -200,6 +210,9 @@ pub(super) fn print(out: &mut dyn Write, record: &Report) -> Result<()> {
     }
     if let Some(error) = &record.error {
         writeln!(out, "distance to the exact map: max {:.3e}, rms {:.3e}", error.max, error.rms)?;
+    }
+    if let Some(error) = distortion.length.and_then(|length| length.boundary_max) {
+        writeln!(out, "lengths of boundary edges: off by {error:.1e} at most")?;
     }
     if let Some(lengths) = &record.boundary_lengths {
         let given = if lengths.given == LengthUnit::Factors { "by factors" } else { "as lengths" };

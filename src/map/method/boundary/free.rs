@@ -1,4 +1,4 @@
-//! The free map: the boundary edges exactly of given lengths, H the lowest.
+//! The free map of a quad mesh: the boundary edges exactly of given lengths, H the lowest.
 
 use std::f64::consts::TAU;
 
@@ -54,14 +54,15 @@ pub(super) fn solve(setup: &Setup, watch: &mut dyn Observer) -> Result<Attempt, 
         ending: Ending::Minimised(found.status),
         iterations: found.iterations,
         residual: Some(found.residual),
-        exactly: Some(Exactly::Lengths),
+        // On triangle meshes these are the half edges, from vertex to dual vertex.
+        exactly: (!domain.is_of_triangles()).then_some(Exactly::Lengths),
         ..Map::solved(boundary::NAME, z, fixed, None)
     }))
 }
 
 /// The free map as a start for other energies: conformal, of the right size, corners as they are on the surface. `None` where it is
 /// not found. `watch` is not told of its iterations.
-pub(in crate::map) fn start(setup: &Setup, watch: &mut dyn Observer) -> Option<Vec<Complex64>> {
+pub(super) fn start(setup: &Setup, watch: &mut dyn Observer) -> Option<Vec<Complex64>> {
     let reduction = reduction(setup, watch).ok()?;
     let found = map_of_lengths(setup.domain, &reduction, START_LENGTHS, None, &mut StopOnly(watch)).ok()?;
     Some(reduction.extend(&place(&setup.domain.graph, &found.boundary)))
@@ -88,7 +89,7 @@ fn map_of_lengths(
 }
 
 /// Passes on the request to stop, and no iterations.
-struct StopOnly<'a>(&'a mut dyn Observer);
+pub(super) struct StopOnly<'a>(pub &'a mut dyn Observer);
 
 impl Observer for StopOnly<'_> {
     fn phase(&mut self, _phase: crate::solver::Phase) {}
