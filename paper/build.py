@@ -138,7 +138,11 @@ def main():
     output.parent.mkdir(parents=True, exist_ok=True)
     records = output.parent / "records.json"
     records.write_text(json.dumps(gathered(results, arguments.timings)), encoding="utf-8")
-    inputs = {"records": str(records), "figures": str(results / "figures")}
+    inputs = {
+        "records": str(records),
+        "figures": str(results / "figures"),
+        "provenance": str(results / "provenance.json"),
+    }
     # The lettering of the figures.
     fonts = [ROOT / "src" / "figure" / "font"]
     common = {"root": "/", "sys_inputs": inputs, "font_paths": fonts}
