@@ -60,6 +60,7 @@ impl Watch {
         let of_phase = match self.phase {
             None => &mut self.seconds.read,
             Some(Phase::Assemble) => &mut self.seconds.assemble,
+            Some(Phase::Order) => &mut self.seconds.order,
             Some(Phase::Factor) => &mut self.seconds.factor,
             Some(Phase::Solve) => &mut self.seconds.solve,
             Some(Phase::Measure) => &mut self.seconds.measure,
@@ -110,6 +111,7 @@ impl Observer for Watch {
 fn name(phase: Phase) -> &'static str {
     match phase {
         Phase::Assemble => "assemble",
+        Phase::Order => "order",
         Phase::Factor => "factor",
         Phase::Solve => "solve",
         Phase::Measure => "measure",
