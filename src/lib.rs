@@ -36,7 +36,7 @@
 //! [`MapOptions`] say what is wanted. Its most important choice is the [`Boundary`]: on the unit circle (the
 //! default), free with its own lengths, fixed, or none on a closed surface of genus 1, which is mapped with two
 //! periods. An [`Expression`] such as `H + 0.5 L` is minimised instead of the energy for which the boundary stands.
-//! A conformal map that flips a face is replaced by a bijective one, unless [`Valid::Off`](map::Valid::Off) is asked for.
+//! A conformal map that flips a face is replaced by a bijective one, unless [`Valid::Off`] is asked for.
 //!
 //! Energies, constraints and solvers of one's own are handed to a map at run time: see [`EnergyKind`],
 //! [`Constraint`], [`SolverChoice`](map::SolverChoice) and `examples/own_energy.rs`.
@@ -59,7 +59,7 @@
 //! | [`constraint`] | pinned vertices, shapes of the boundary, gauges; the elimination x = Z y + x0 |
 //! | [`problem`] | the linear problem and the nonlinear one |
 //! | [`solver`] | [direct](solver::linear) solvers, [minimisers](solver::minimise), and Newton's method on the [boundary](solver::boundary) values, which computes circle maps and free maps |
-//! | [`map`] | `solve.rs` says which method is tried when; `bijective/` replaces a map that flips faces; [`periodic`](map::periodic) maps |
+//! | [`map`](mod@map) | `solve.rs` says which method is tried when; `bijective/` replaces a map that flips faces; [`periodic`](map::periodic) maps |
 //! | [`distortion`], [`report`], `figure` | how good a map is, its record, its picture (feature `figure`) |
 //! | `app` | the command line, experiments, comparisons with libigl, benchmarks (feature `cli`) |
 //!

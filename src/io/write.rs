@@ -97,7 +97,7 @@ pub fn write(path: &Path, surface: &Surface, text: Option<&VertexText>, uv: Opti
     stage_mesh(path, surface, text, uv)?.publish()
 }
 
-/// Does the same as [`write`] but stages the file, see [`stage`].
+/// Does the same as [`write()`] but stages the file, see [`stage`].
 ///
 /// # Errors
 /// [`WriteError`].

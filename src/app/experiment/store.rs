@@ -85,7 +85,7 @@ pub(super) fn merge(config: &Config, scratch: &Scratch) -> Result<(), ResultsErr
 /// that the config no longer has stay. Returns the names of the runs removed.
 ///
 /// # Errors
-/// [`ResultsError`] as [`merge`].
+/// [`ResultsError`] as `merge`.
 pub fn remove_stale(config: &Config, results: &Path) -> Result<Vec<String>, ResultsError> {
     let folder = inside(results, &config.name)?;
     if !folder.join(RECORDS).is_file() {
